@@ -1,0 +1,155 @@
+#include "analysis/law/law_file.h"
+
+#include "embedded/law.h"
+#include "stimuli/error.h"
+#include "stimuli/io/json_file.h"
+
+namespace stairstep {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr const char* kFormat = "stairstep-law/1";
+
+[[noreturn]] void reject(const std::string& source, const std::string& problem, const std::string& remedy) {
+    throw InputError(source, problem, remedy);
+}
+
+Pattern pattern_at(const json& object, const std::string& source) {
+    const std::string text = json_text(object, "pattern", source);
+    for (const Pattern pattern : {Pattern::step, Pattern::stair}) {
+        if (name(pattern) == text) return pattern;
+    }
+    reject(source, "\"pattern\" is \"" + text + "\"", "use step or stair");
+}
+
+KernelShape kernel_at(const json& object, const std::string& source) {
+    const std::string text = json_text(object, "kernel", source);
+    if (const auto shape = kernel_shape_named(text)) return *shape;
+    reject(source, "\"kernel\" is \"" + text + "\"", "use box, disk, gaussian or poisson");
+}
+
+double positive_at(const json& object, const std::string& key, const std::string& source) {
+    const double value = json_number(object, key, source);
+    if (!(value > 0)) reject(source, "\"" + key + "\" must be above 0", "fit the law again");
+    return value;
+}
+
+double contrast_at(const json& object, const std::string& source) {
+    const double contrast = positive_at(object, "contrast", source);
+    if (contrast > 1) reject(source, "\"contrast\" must be at most 1", "fit the law again");
+    return contrast;
+}
+
+int count_at(const json& object, const std::string& key, const std::string& source) {
+    const double value = json_number(object, key, source);
+    if (!(value >= 0) || value > 2e9 || value != static_cast<int>(value)) {
+        reject(source, "\"" + key + "\" must be a whole number, 0 or above", "fit the law again");
+    }
+    return static_cast<int>(value);
+}
+
+/// c and its interval; both levels of the file state them alike.
+template <typename L>
+void read_slope(L& law, const json& object, const std::string& source) {
+    law.slope = positive_at(object, "slope", source);
+    law.slope_ci95 = json_range(object, "slope_ci95", source);
+    if (law.slope < law.slope_ci95.first || law.slope > law.slope_ci95.second) {
+        reject(source, "\"slope\" lies outside \"slope_ci95\"", "fit the law again");
+    }
+    law.pattern = pattern_at(object, source);
+    law.contrast = contrast_at(object, source);
+    law.kernel = kernel_at(object, source);
+    law.observers = count_at(object, "observers", source);
+    law.trials = count_at(object, "trials", source);
+}
+
+ConditionLaw condition_from(const json& object, const std::string& source) {
+    if (!object.is_object()) reject(source, "is no object", "fit the law again");
+    ConditionLaw law;
+    read_slope(law, object, source);
+    law.intercept_px = json_number(object, "intercept_px", source);
+    law.intercept_ci95 = json_range(object, "intercept_ci95", source);
+    law.exponent = json_number(object, "exponent", source);
+    law.exponent_ci95 = json_range(object, "exponent_ci95", source);
+    if (object.contains("between_observer_sd_ln")) {
+        law.between_observer_sd_ln = json_number(object, "between_observer_sd_ln", source);
+    }
+    return law;
+}
+
+Law law_from(const json& object, const std::string& source) {
+    if (const std::string format = json_text(object, "format", source); format != kFormat) {
+        reject(source, "\"format\" is \"" + format + "\"", std::string("this program reads ") + kFormat);
+    }
+    Law law;
+    read_slope(law, object, source);
+    law.threshold_probability = positive_at(object, "threshold_probability", source);
+    if (law.threshold_probability >= 1) {
+        reject(source, "\"threshold_probability\" must be below 1", "fit the law again");
+    }
+    law.texel_range_px = json_range(object, "texel_range_px", source);
+    law.source = json_text(object, "source", source);
+    const auto conditions = object.find("conditions");
+    if (conditions == object.end() || !conditions->is_array()) {
+        reject(source, "\"conditions\" is no list", "use [] where there are none");
+    }
+    for (const json& condition : *conditions) {
+        law.conditions.push_back(
+            condition_from(condition, source + ", conditions[" + std::to_string(law.conditions.size()) + "]"));
+    }
+    return law;
+}
+
+json pair_of(const Interval& interval) { return json::array({interval.first, interval.second}); }
+
+ordered_json to_json(const ConditionLaw& law) {
+    return {{"pattern", name(law.pattern)},
+            {"contrast", law.contrast},
+            {"kernel", name(law.kernel)},
+            {"slope", law.slope},
+            {"slope_ci95", pair_of(law.slope_ci95)},
+            {"intercept_px", law.intercept_px},
+            {"intercept_ci95", pair_of(law.intercept_ci95)},
+            {"exponent", law.exponent},
+            {"exponent_ci95", pair_of(law.exponent_ci95)},
+            {"between_observer_sd_ln", law.between_observer_sd_ln},
+            {"observers", law.observers},
+            {"trials", law.trials}};
+}
+
+}  // namespace
+
+Law read_law(const std::filesystem::path& path) { return law_from(read_json(path), path.string()); }
+
+Law kreuzer2017_law() {
+    return law_from(parse_json(embedded::kreuzer2017_json, "kreuzer2017.json"), "kreuzer2017.json");
+}
+
+Law law_named(const std::string& path_or_name) {
+    return path_or_name == "kreuzer2017" ? kreuzer2017_law() : read_law(path_or_name);
+}
+
+void write_law(const std::filesystem::path& path, const Law& law) {
+    ordered_json conditions = ordered_json::array();
+    for (const ConditionLaw& condition : law.conditions) conditions.push_back(to_json(condition));
+    write_json(path, {{"format", kFormat},
+                      {"kernel", name(law.kernel)},
+                      {"slope", law.slope},
+                      {"slope_ci95", pair_of(law.slope_ci95)},
+                      {"threshold_probability", law.threshold_probability},
+                      {"pattern", name(law.pattern)},
+                      {"contrast", law.contrast},
+                      {"texel_range_px", pair_of(law.texel_range_px)},
+                      {"observers", law.observers},
+                      {"trials", law.trials},
+                      {"source", law.source},
+                      {"conditions", conditions}});
+}
+
+double slope_for_kernel(const Law& law, KernelShape kernel) {
+    return law.slope * axis_deviation(law.kernel) / axis_deviation(kernel);
+}
+
+}  // namespace stairstep

@@ -1,0 +1,76 @@
+// law.json: what analysis hands to renderers.
+//
+// The top level is the worst case, the largest slope among the conditions; `conditions` hold each on its own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stimuli/edge.h"
+#include "stimuli/kernel.h"
+
+namespace stairstep {
+
+/// A 95 % interval, low to high.
+using Interval = std::pair<double, double>;
+
+/// The law of one pattern, contrast and kernel.
+struct ConditionLaw {
+    Pattern pattern = Pattern::step;
+    /// C in (0, 1].
+    double contrast = 1;
+    KernelShape kernel = KernelShape::box;
+    /// c: radius in texels, > 0.
+    double slope = 0;
+    Interval slope_ci95;
+    /// b of r = b + c·a, px; 0 within its interval speaks for a law through the origin.
+    double intercept_px = 0;
+    Interval intercept_ci95;
+    /// p of r = c·aᵖ; 1 within its interval speaks for a linear law.
+    double exponent = 1;
+    Interval exponent_ci95;
+    /// Standard deviation of ln c between observers, measurement error included.
+    double between_observer_sd_ln = 0;
+    int observers = 0;
+    int trials = 0;
+};
+
+struct Law {
+    /// A law holds for this kernel alone; see `slope_for_kernel`.
+    KernelShape kernel = KernelShape::box;
+    /// c of the worst case, > 0.
+    double slope = 0;
+    Interval slope_ci95;
+    /// Share of correct answers at threshold: what "hidden" means.
+    double threshold_probability = 0.82;
+    Pattern pattern = Pattern::step;
+    double contrast = 1;
+    /// Texel sizes that were tested, px; beyond them the law extrapolates.
+    Interval texel_range_px;
+    int observers = 0;
+    int trials = 0;
+    /// Where it comes from and how the intervals were made, in words.
+    std::string source;
+    /// May be empty for a law stated without its data.
+    std::vector<ConditionLaw> conditions;
+};
+
+/// Reads a law; unknown keys are ignored. Throws InputError naming file and key for anything missing, mistyped or
+/// out of range, or another format than "stairstep-law/1".
+Law read_law(const std::filesystem::path& path);
+
+/// The law that ships: Kreuzer's c = 3.47. The thesis doesn't name its kernel's shape; `box` is assumed.
+Law kreuzer2017_law();
+
+/// `read_law`, or the one that ships for the name "kreuzer2017".
+Law law_named(const std::string& path_or_name);
+
+/// Writes a law, whole or not at all. Throws FailureError.
+void write_law(const std::filesystem::path& path, const Law& law);
+
+/// The law's slope for another kernel, by equal variance: c·σ(law.kernel)/σ(kernel).
+double slope_for_kernel(const Law& law, KernelShape kernel);
+
+}  // namespace stairstep

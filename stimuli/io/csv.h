@@ -1,0 +1,52 @@
+// Comma-separated tables (RFC 4180), read by column name. Parsing is libcsv's in strict mode.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stairstep {
+
+/// A whole table: a header of distinct names, then rows of as many fields.
+class CsvTable {
+  public:
+    /// Throws InputError naming the file and line for anything malformed: no header, a name twice, a row with
+    /// another number of fields, a stray or unclosed quote, a NUL byte.
+    static CsvTable read(const std::filesystem::path& path);
+
+    /// As `read`, from text; `source` stands for the file's name in errors.
+    static CsvTable parse(const std::string& text, const std::string& source);
+
+    size_t row_count() const { return rows_.size(); }
+
+    /// Position of a column. Throws InputError naming the file and the column where it is missing.
+    size_t column(const std::string& name) const;
+    std::optional<size_t> find_column(const std::string& name) const;
+
+    const std::string& text(size_t row, size_t column) const { return rows_[row][column]; }
+
+    /// A field as a finite number. Throws InputError naming file, line and column otherwise.
+    double number(size_t row, size_t column) const;
+
+    /// An error about one field: names the file, the row's line and the column.
+    [[noreturn]] void reject(size_t row, size_t column, const std::string& problem, const std::string& remedy) const;
+
+  private:
+    std::string source_;
+    std::vector<std::string> header_;
+    std::vector<std::vector<std::string>> rows_;
+};
+
+/// Writes a table row by row into text.
+class CsvWriter {
+  public:
+    /// Appends one row; fields with a comma, quote or line break are quoted.
+    void row(const std::vector<std::string>& fields);
+    const std::string& text() const { return text_; }
+
+  private:
+    std::string text_;
+};
+
+}  // namespace stairstep

@@ -1,0 +1,53 @@
+#include "stimuli/io/image_file.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include "stimuli/error.h"
+#include "stimuli/io/output_file.h"
+#include "stimuli/stimulus.h"
+
+namespace stairstep {
+
+void write_png(const std::filesystem::path& path, const Image& image, const ImageAttributes& attributes) {
+    OutputFile output(path);
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+    for (const auto& [name, value] : attributes) spec.attribute(name, value);
+    const auto writer = OIIO::ImageOutput::create("png");
+    if (!writer) throw FailureError(path.string(), OIIO::geterror(), "install OpenImageIO with PNG support");
+    if (!writer->open(output.path().string(), spec) ||
+        !writer->write_image(OIIO::TypeDesc::UINT8, image.pixels.data()) || !writer->close()) {
+        throw FailureError(path.string(), "can't be written (" + writer->geterror() + ")",
+                           "check the disk's free space");
+    }
+    output.commit();
+}
+
+Image read_image(const std::filesystem::path& path) {
+    if (!std::filesystem::exists(path)) throw InputError(path.string(), "doesn't exist", "check the path");
+    const auto reader = OIIO::ImageInput::open(path.string());
+    if (!reader) {
+        throw InputError(path.string(), "can't be read as an image (" + OIIO::geterror() + ")", "check the file");
+    }
+    const OIIO::ImageSpec& spec = reader->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide || spec.height > kLargestSide) {
+        throw InputError(path.string(), "claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " px",
+                         "each side must be 1 to 16384 px");
+    }
+    const int channels = spec.nchannels >= 3 ? 3 : 1;
+    Image image(spec.width, spec.height, channels);
+    if (!reader->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, image.pixels.data())) {
+        throw InputError(path.string(), "is damaged (" + reader->geterror() + ")", "write it again");
+    }
+    return image;
+}
+
+bool draw_text(Image& image, int column, int row, const std::string& text, int size_px, uint8_t grey) {
+    const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+    OIIO::ImageBuf buffer(spec, image.pixels.data());
+    const std::vector<float> colour(image.channels, grey / 255.0f);
+    return OIIO::ImageBufAlgo::render_text(buffer, column, row, text, size_px, "DejaVuSans", colour);
+}
+
+}  // namespace stairstep

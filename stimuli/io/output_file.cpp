@@ -1,0 +1,100 @@
+#include "stimuli/io/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "stimuli/error.h"
+
+namespace stairstep {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr uintmax_t kLargestFile = uintmax_t{1} << 30;
+
+}  // namespace
+
+OutputFile::OutputFile(fs::path final_path) : final_path_(std::move(final_path)) {
+    fs::path folder = final_path_.parent_path();
+    if (folder.empty()) folder = ".";
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) {
+        throw FailureError(final_path_.string(), "its folder doesn't exist", "create " + folder.string());
+    }
+    if (fs::is_directory(final_path_, error)) {
+        throw FailureError(final_path_.string(), "is a folder", "name a file");
+    }
+    if (access(folder.c_str(), W_OK) != 0) {
+        throw FailureError(final_path_.string(), "its folder can't be written",
+                           "choose another or change its permissions");
+    }
+    partial_path_ = folder / ("." + final_path_.stem().string() + ".partial-" + std::to_string(getpid()) +
+                              final_path_.extension().string());
+}
+
+OutputFile::~OutputFile() {
+    std::error_code ignored;
+    if (!committed_) fs::remove(partial_path_, ignored);
+}
+
+void OutputFile::commit() {
+    const int file = open(partial_path_.c_str(), O_RDONLY);
+    const bool synced = file >= 0 && fsync(file) == 0;
+    const int sync_error = errno;
+    if (file >= 0) close(file);
+    if (!synced) throw FailureError(final_path_.string(), std::strerror(sync_error), "check the disk");
+    std::error_code error;
+    fs::rename(partial_path_, final_path_, error);
+    if (error) throw FailureError(final_path_.string(), error.message(), "check the folder's permissions");
+    committed_ = true;
+}
+
+void write_file(const fs::path& path, std::string_view text) {
+    OutputFile output(path);
+    {
+        std::ofstream file(output.path(), std::ios::binary);
+        file.write(text.data(), static_cast<std::streamsize>(text.size()));
+        file.flush();
+        if (!file) throw FailureError(path.string(), "can't be written", "check the disk's free space");
+    }
+    output.commit();
+}
+
+void make_output_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder)) {
+        const std::string reason = error ? error.message() : "is not a folder";
+        throw FailureError(folder.string(), "can't create this output folder: " + reason, "choose another --out");
+    }
+    if (access(folder.c_str(), W_OK) != 0) {
+        throw FailureError(folder.string(), "this output folder can't be written", "choose another --out");
+    }
+}
+
+std::string read_file(const fs::path& path) {
+    std::error_code error;
+    const auto status = fs::status(path, error);
+    if (!fs::exists(status)) throw InputError(path.string(), "doesn't exist", "check the path");
+    if (fs::is_directory(status)) throw InputError(path.string(), "is a folder", "name a file");
+    const uintmax_t size = fs::is_regular_file(status) ? fs::file_size(path, error) : 0;
+    if (size > kLargestFile) throw InputError(path.string(), "is larger than 1 GiB", "split it");
+    std::ifstream file(path, std::ios::binary);
+    std::string text(size, '\0');
+    if (size > 0) {
+        file.read(text.data(), static_cast<std::streamsize>(size));
+        text.resize(static_cast<size_t>(file.gcount()));
+    } else {
+        text.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    if (!file.good() && !file.eof()) {
+        throw InputError(path.string(), "can't be read", "check its permissions");
+    }
+    return text;
+}
+
+}  // namespace stairstep

@@ -1,0 +1,39 @@
+// Output that is there whole or not at all: written beside its final name, then renamed onto it.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace stairstep {
+
+/// A file in the making. Write to `path()`, then `commit()`; without it the destructor removes what was written.
+class OutputFile {
+  public:
+    /// Throws FailureError where the folder doesn't exist or can't be written.
+    explicit OutputFile(std::filesystem::path final_path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    /// The name to write to; it keeps the final name's extension, by which image writers choose their format.
+    const std::filesystem::path& path() const { return partial_path_; }
+
+    /// Syncs the content to disk and renames it onto the final name. Throws FailureError.
+    void commit();
+
+  private:
+    std::filesystem::path final_path_;
+    std::filesystem::path partial_path_;
+    bool committed_ = false;
+};
+
+/// Writes text as a whole file. Throws FailureError.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// Creates a folder and its parents and checks that it can be written to. Throws FailureError.
+void make_output_folder(const std::filesystem::path& folder);
+
+/// The whole of a file. Throws InputError if it is missing, unreadable or larger than 1 GiB.
+std::string read_file(const std::filesystem::path& path);
+
+}  // namespace stairstep

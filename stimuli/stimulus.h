@@ -1,0 +1,54 @@
+// A stimulus: one picture that an observer judges, described completely by a value and drawn exactly.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stimuli/edge.h"
+#include "stimuli/kernel.h"
+
+namespace stairstep {
+
+/// How the reference line of a step runs: along the silhouette whose sampling made the step (slope a/W), or level.
+enum class StepReference { sloped, horizontal };
+
+std::string_view name(StepReference reference);
+
+struct Stimulus {
+    /// step or stair: an artifact; line: the same silhouette without one.
+    Pattern pattern = Pattern::step;
+    /// step or stair: for a line, whose silhouette it is; for an artifact, its own pattern.
+    Pattern silhouette = Pattern::step;
+    /// Side of a shadow-map texel on screen, px, > 0 (the artifact size a).
+    double texel_px = 10;
+    Kernel kernel;
+    /// C = L_lit in (0, 1]; the shadow is black: pixel value = C·V.
+    double contrast = 1;
+    int width_px = 640;
+    int height_px = 480;
+    StepReference step_reference = StepReference::sloped;
+};
+
+/// Width and height lie in [1, kLargestSide] px: 16,384² is 2.1 GB as doubles, and GL textures end there too.
+inline constexpr int kLargestSide = 16384;
+
+/// Throws InputError and names the field that is out of its range.
+void require_valid(const Stimulus& stimulus);
+
+/// The edge that the stimulus shows.
+Edge edge_of(const Stimulus& stimulus);
+
+/// Centre of pixel column i, row j (row 0 on top) in the image frame.
+Point pixel_centre(const Stimulus& stimulus, int column, int row);
+
+/// Luminance C·V of every pixel at its centre, row by row from the top; width × height values in [0, C].
+std::vector<double> luminance(const Stimulus& stimulus);
+
+/// Nearest 8-bit level of a luminance in [0, 1]; ties go up.
+int level_8bit(double luminance);
+
+/// A name that tells the stimulus apart, without extension: "step_box_a10_r35_c1", "line-of-stair_box_…".
+std::string file_stem(const Stimulus& stimulus);
+
+}  // namespace stairstep
