@@ -3,8 +3,8 @@
 //   r = b + c·aᵖ        with b = 0 and p = 1, the law proper:  r = c·a
 //
 // r filter radius, a texel size on screen, both in px (or both in any other one unit, when b = 0 and p = 1).
-// c is dimensionless: the radius in texels. One formula for all: the fits instantiate it with automatic
-// derivatives, the renderer with double.
+// c is dimensionless: the radius in texels. One formula for all: the fits instantiate it with automatic derivatives,
+// the renderer with double.
 //
 // Anchor: filter_radius(10, {3.47}) = 34.7.
 #pragma once
@@ -23,12 +23,11 @@ struct LawParameters {
     T exponent = T(1);
 };
 
-/// r(a) for a texel size > 0. With exponent 1 no power is taken, so the law proper is exact.
+/// r(a) for a texel size > 0. No shortcut for p = 1: automatic derivatives need the power, and pow(a, 1) is a exactly.
 template <typename T>
 T filter_radius(const T& texel, const LawParameters<T>& law) {
     using std::pow;
-    const T power = law.exponent == T(1) ? texel : pow(texel, law.exponent);
-    return law.intercept + law.slope * power;
+    return law.intercept + law.slope * pow(texel, law.exponent);
 }
 
 }  // namespace stairstep

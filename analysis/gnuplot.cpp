@@ -1,0 +1,60 @@
+#include "analysis/gnuplot.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "stimuli/error.h"
+#include "stimuli/io/output_file.h"
+
+namespace stairstep {
+namespace fs = std::filesystem;
+namespace {
+
+/// A folder of our own that goes away with the value.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string pattern = (fs::temp_directory_path() / "stairstep-XXXXXX").string();
+        if (!mkdtemp(pattern.data())) throw FailureError(pattern, "can't be created", "check TMPDIR");
+        path_ = pattern;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+std::string shell_quoted(const std::string& text) {
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+}  // namespace
+
+std::string draw_svg(const std::string& script, int width_px, int height_px) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "figure.gp", "set terminal svg size " + std::to_string(width_px) + "," +
+                                                std::to_string(height_px) +
+                                                " font 'Helvetica,13' background '#ffffff'\n"
+                                                "set output 'figure.svg'\nset encoding utf8\n" +
+                                                script);
+    const std::string command = "cd " + shell_quoted(folder.path().string()) + " && gnuplot figure.gp 2>errors.txt";
+    const int status = std::system(command.c_str());
+    const fs::path figure = folder.path() / "figure.svg";
+    if (status != 0 || !fs::exists(figure)) {
+        throw FailureError("gnuplot", "could not draw a figure (" + read_file(folder.path() / "errors.txt") + ")",
+                           "install gnuplot-nox");
+    }
+    return read_file(figure);
+}
+
+}  // namespace stairstep

@@ -1,0 +1,175 @@
+#include "analysis/report.h"
+
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+
+#include "analysis/figures.h"
+#include "embedded/report.h"
+#include "stimuli/error.h"
+#include "stimuli/io/json_file.h"
+#include "stimuli/io/output_file.h"
+#include "stimuli/number.h"
+
+namespace stairstep {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string escaped(const std::string& text) {
+    std::string html;
+    for (const char c : text) {
+        switch (c) {
+            case '&': html += "&amp;"; break;
+            case '<': html += "&lt;"; break;
+            case '>': html += "&gt;"; break;
+            case '"': html += "&quot;"; break;
+            default: html += c;
+        }
+    }
+    return html;
+}
+
+/// Replaces each {{name}}; a value without a place in the page is a bug.
+class Page {
+  public:
+    explicit Page(std::string_view html) : html_(html) {}
+
+    Page& set(const std::string& name, const std::string& html) {
+        const std::string mark = "{{" + name + "}}";
+        assert(html_.find(mark) != std::string::npos);
+        for (size_t at = 0; (at = html_.find(mark, at)) != std::string::npos; at += html.size()) {
+            html_.replace(at, mark.size(), html);
+        }
+        return *this;
+    }
+    Page& text(const std::string& name, const std::string& text) { return set(name, escaped(text)); }
+
+    const std::string& html() const { return html_; }
+
+  private:
+    std::string html_;
+};
+
+std::string base64(const std::string& bytes) {
+    constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](size_t k) { return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u; };
+        const unsigned group = byte(0) << 16 | byte(1) << 8 | byte(2);
+        text += kAlphabet[group >> 18];
+        text += kAlphabet[group >> 12 & 63];
+        text += i + 1 < bytes.size() ? kAlphabet[group >> 6 & 63] : '=';
+        text += i + 2 < bytes.size() ? kAlphabet[group & 63] : '=';
+    }
+    return text;
+}
+
+std::string embedded_png(const fs::path& path, const std::string& description) {
+    const std::string bytes = read_file(path);
+    if (!bytes.starts_with("\x89PNG")) throw InputError(path.string(), "is no PNG", "name a PNG");
+    return "<img alt=\"" + escaped(description) + "\" src=\"data:image/png;base64," + base64(bytes) + "\">";
+}
+
+/// gnuplot's XML header has no place inside a page.
+std::string inline_svg(const std::string& svg) { return svg.substr(svg.find("<svg")); }
+
+std::string in_brackets(const Interval& interval, int decimals) {
+    return "[" + format_fixed(interval.first, decimals) + ", " + format_fixed(interval.second, decimals) + "]";
+}
+
+std::string describe(Pattern pattern, double contrast) {
+    return std::string(name(pattern)) + " at " + format_number(100 * contrast) + " % contrast";
+}
+
+std::string law_rows(const Law& law) {
+    std::string rows;
+    for (const ConditionLaw& c : law.conditions) {
+        rows += "<tr><td>" + describe(c.pattern, c.contrast) + "</td><td>" + format_fixed(c.slope, 2) + "</td><td>" +
+                format_fixed(c.slope_ci95.first, 2) + " to " + format_fixed(c.slope_ci95.second, 2) + "</td><td>" +
+                format_fixed(c.between_observer_sd_ln, 2) + "</td><td>" + format_fixed(c.intercept_px, 1) + " " +
+                in_brackets(c.intercept_ci95, 1) + "</td><td>" + format_fixed(c.exponent, 2) + " " +
+                in_brackets(c.exponent_ci95, 2) + "</td><td>" + std::to_string(c.observers) + "</td><td>" +
+                std::to_string(c.trials) + "</td></tr>\n";
+    }
+    return rows;
+}
+
+std::string contact_sheet_section(const std::string& path) {
+    return "<h2>What the observers judge</h2>\n<figure>" + embedded_png(path, "contact sheet of filtered shadow edges") +
+           "<figcaption>Filtered shadow edges, at half size. Down a column the texel grows and the steps come back; along "
+           "a row the filter grows and they vanish. They vanish where the radius is the same number of texels, whatever the "
+           "texel's size.</figcaption></figure>\n";
+}
+
+/// A number of stats.json for people; a dash where it isn't there.
+std::string number_or_dash(const json& object, const std::string& key, int decimals) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? format_fixed(found->get<double>(), decimals) : "–";
+}
+
+std::string renderings_section(const fs::path& stats_path) {
+    const std::string source = stats_path.string();
+    const json stats = read_json(stats_path);
+    const auto renderings = stats.find("renderings");
+    if (renderings == stats.end() || !renderings->is_array() || renderings->empty()) {
+        throw InputError(source, "lists no \"renderings\"", "write it with stairstep-render image");
+    }
+    std::string pictures;
+    std::string rows;
+    for (const json& r : *renderings) {
+        if (!r.is_object()) throw InputError(source, "\"renderings\" holds something else", "write it again");
+        const std::string size = number_or_dash(r, "map_width", 0) + " × " + number_or_dash(r, "map_height", 0);
+        const std::string title = json_text(r, "resolution", source) + ": " + size + " texels";
+        pictures += "<figure>" + embedded_png(stats_path.parent_path() / json_text(r, "file", source), title) +
+                    "<figcaption>" + escaped(title) + "</figcaption></figure>\n";
+        const json errors = r.value("error", json::object());
+        rows += "<tr><td>" + escaped(json_text(r, "resolution", source)) + "</td><td>" + size + "</td><td>" +
+                escaped(json_text(r, "filter", source)) + "</td><td>" + number_or_dash(r, "frame_ms", 1) + "</td><td>" +
+                number_or_dash(r, "depth_ms", 1) + "</td><td>" + number_or_dash(r, "lighting_ms", 1) + "</td><td>" +
+                number_or_dash(errors, "rmse_penumbra", 4) + "</td></tr>\n";
+    }
+    std::string difference;
+    if (const auto found = stats.find("difference"); found != stats.end() && found->is_object()) {
+        difference = "<figure>" +
+                     embedded_png(stats_path.parent_path() / json_text(*found, "file", source), "difference") +
+                     "<figcaption>Difference between the two, × " + number_or_dash(*found, "scale", 0) +
+                     ". Root mean square " + number_or_dash(*found, "rmse_levels", 2) + " of 255 levels.</figcaption></figure>\n";
+    }
+    return "<h2>What the law saves</h2>\n<p>" + escaped(fs::path(json_text(stats, "scene", source)).filename().string()) +
+           " with percentage-closer filtering of one and the same radius, at the fixed size and at the law's. Times are medians "
+           "from one run, in which the two took turns, on " + escaped(json_text(stats, "gl_renderer", source)) +
+           ".</p>\n<div class=\"pair\">\n" + pictures + "</div>\n" +
+           "<table>\n<tr><th>map</th><th>size</th><th>filter</th><th>frame, ms</th><th>depth pass</th><th>lighting</th>"
+           "<th>error in the penumbra</th></tr>\n" + rows + "</table>\n" + difference;
+}
+
+}  // namespace
+
+std::string report_html(const std::vector<Trial>& trials, const LawFit& fit, const ReportInputs& inputs) {
+    const Law& law = fit.law;
+    const Trial& first = trials.front();
+    Page page(embedded::report_template_html);
+    page.text("study", first.study.empty() ? "A study" : first.study)
+        .text("observers", std::to_string(law.observers))
+        .text("trials", std::to_string(law.trials))
+        .text("slope", format_fixed(law.slope, 2))
+        .text("slope_low", format_fixed(law.slope_ci95.first, 2))
+        .text("slope_high", format_fixed(law.slope_ci95.second, 2))
+        .text("worst_case", describe(law.pattern, law.contrast))
+        .text("kernel", std::string(name(law.kernel)))
+        .text("percent", format_number(std::round(1000 * law.threshold_probability) / 10))
+        .text("first_observer", first.observer)
+        .text("first_condition", describe(first.condition.pattern, first.condition.contrast))
+        .text("source", law.source)
+        .set("law_rows", law_rows(law))
+        .set("law_figure", inline_svg(law_figure(fit)))
+        .set("convergence_figure", inline_svg(convergence_figure(trials, fit)))
+        .set("contact_sheet", inputs.contact_sheet.empty() ? "" : contact_sheet_section(inputs.contact_sheet))
+        .set("renderings", inputs.render_stats.empty() ? "" : renderings_section(inputs.render_stats));
+    return page.html();
+}
+
+}  // namespace stairstep

@@ -1,0 +1,43 @@
+CREATE TABLE study (
+    name TEXT NOT NULL,
+    design TEXT NOT NULL,           -- JSON
+    program TEXT NOT NULL           -- version that created the database
+) STRICT;
+
+CREATE TABLE session (
+    session INTEGER PRIMARY KEY,
+    observer TEXT NOT NULL,
+    seed INTEGER NOT NULL,
+    observer_kind TEXT NOT NULL,
+    observer_settings TEXT NOT NULL -- JSON
+) STRICT;
+
+CREATE TABLE session_end (
+    session INTEGER PRIMARY KEY REFERENCES session
+) STRICT;
+
+CREATE TABLE trial (
+    id INTEGER PRIMARY KEY,
+    session INTEGER NOT NULL REFERENCES session,
+    round INTEGER NOT NULL,
+    track INTEGER NOT NULL,
+    trial INTEGER NOT NULL,
+    pattern TEXT NOT NULL CHECK (pattern IN ('step', 'stair')),
+    kernel TEXT NOT NULL,
+    contrast REAL NOT NULL CHECK (contrast > 0 AND contrast <= 1),
+    texel_px REAL NOT NULL CHECK (texel_px > 0),
+    suggested_radius_px REAL NOT NULL,
+    radius_px REAL NOT NULL CHECK (radius_px > 0),
+    stimulus TEXT NOT NULL CHECK (stimulus IN ('artifact', 'line')),
+    response TEXT NOT NULL CHECK (response IN ('artifact', 'line')),
+    response_time_s REAL NOT NULL,
+    shown_at_s REAL NOT NULL,       -- Unix time
+    dropped_frames INTEGER NOT NULL,
+    UNIQUE (session, track, trial)
+) STRICT;
+
+-- What was recorded stays as it was.
+CREATE TRIGGER trial_is_final_update BEFORE UPDATE ON trial BEGIN SELECT RAISE(ABORT, 'trials are append-only'); END;
+CREATE TRIGGER trial_is_final_delete BEFORE DELETE ON trial BEGIN SELECT RAISE(ABORT, 'trials are append-only'); END;
+CREATE TRIGGER session_is_final_update BEFORE UPDATE ON session BEGIN SELECT RAISE(ABORT, 'sessions are append-only'); END;
+CREATE TRIGGER session_is_final_delete BEFORE DELETE ON session BEGIN SELECT RAISE(ABORT, 'sessions are append-only'); END;
