@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <set>
 #include <sstream>
@@ -23,7 +24,7 @@ constexpr const char* kStyle =
 /// Collects data blocks ($name << EOD) and the plot's parts that draw them.
 class Plot {
   public:
-    /// Opens a data block and returns it for rows.
+    /// Opens a data block and returns it for rows; it stays valid while others are opened.
     std::ostringstream& block(const std::string& name) {
         blocks_.emplace_back(name, std::ostringstream());
         return blocks_.back().second;
@@ -39,7 +40,7 @@ class Plot {
     }
 
   private:
-    std::vector<std::pair<std::string, std::ostringstream>> blocks_;
+    std::deque<std::pair<std::string, std::ostringstream>> blocks_;  // references into it stay valid
     std::vector<std::string> parts_;
 };
 

@@ -1,36 +1,15 @@
 #include "analysis/gnuplot.h"
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
 #include "stimuli/error.h"
 #include "stimuli/io/output_file.h"
+#include "stimuli/io/temporary_folder.h"
 
 namespace stairstep {
 namespace fs = std::filesystem;
 namespace {
-
-/// A folder of our own that goes away with the value.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string pattern = (fs::temp_directory_path() / "stairstep-XXXXXX").string();
-        if (!mkdtemp(pattern.data())) throw FailureError(pattern, "can't be created", "check TMPDIR");
-        path_ = pattern;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 std::string shell_quoted(const std::string& text) {
     std::string quoted = "'";

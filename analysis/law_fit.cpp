@@ -58,7 +58,8 @@ std::optional<LawParameters<double>> fit(const std::vector<Threshold>& threshold
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.logging_type = ceres::SILENT;
-    options.function_tolerance = 1e-14;
+    options.function_tolerance = 1e-18;
+    options.gradient_tolerance = 1e-12;
     options.parameter_tolerance = 1e-12;
     options.max_num_iterations = 200;
     ceres::Solver::Summary summary;

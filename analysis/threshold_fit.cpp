@@ -64,8 +64,8 @@ Threshold fit_threshold(const Track& track, double p_threshold) {
             for (size_t i = 0; i < count; ++i) {
                 double log_posterior = log_prior(beta, delta);
                 for (size_t k = 0; k < strengths.size(); ++k) {
-                    const double p = probability_correct(shape, offset, strengths[k], first + i * kGrain);
-                    log_posterior += std::log(track.trials[k].correct() ? p : 1 - p);
+                    log_posterior +=
+                        log_likelihood(shape, offset, strengths[k], first + i * kGrain, track.trials[k].correct());
                 }
                 joint.push_back(log_posterior);
             }

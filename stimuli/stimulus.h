@@ -22,7 +22,7 @@ struct Stimulus {
     Pattern silhouette = Pattern::step;
     /// Side of a shadow-map texel on screen, px, > 0 (the artifact size a).
     double texel_px = 10;
-    Kernel kernel;
+    Kernel kernel{};
     /// C = L_lit in (0, 1]; the shadow is black: pixel value = C·V.
     double contrast = 1;
     int width_px = 640;

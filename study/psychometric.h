@@ -41,11 +41,26 @@ inline double threshold_offset(const PsychometricShape& s) {
     return std::log10(-std::log(not_seen)) / s.beta;
 }
 
+/// 10^{β(x − T + ε)}, held between 10⁻³⁰⁰ and 10³⁰⁰ so that it and its logarithm stay finite.
+inline double weibull_exponent(const PsychometricShape& s, double offset, double strength, double threshold) {
+    return std::pow(10.0, std::clamp(s.beta * (strength - threshold + offset), -300.0, 300.0));
+}
+
 /// Ψ at `strength` for a threshold, both log10 units, with ε computed once by the caller. In
 /// [γ, 1 − δ(1 − γ)], finite for any finite arguments.
 inline double probability_correct(const PsychometricShape& s, double offset, double strength, double threshold) {
-    const double u = std::pow(10.0, std::min(s.beta * (strength - threshold + offset), 300.0));
-    return s.delta * s.gamma + (1 - s.delta) * (1 - (1 - s.gamma) * std::exp(-u));
+    const double u = weibull_exponent(s, offset, strength, threshold);
+    return s.gamma + (1 - s.delta) * (1 - s.gamma) * -std::expm1(-u);
+}
+
+/// ln Ψ of a right answer, ln(1 − Ψ) of a wrong one: precise in both tails and finite even where γ or δ is 0 and the
+/// probability itself would underflow.
+inline double log_likelihood(const PsychometricShape& s, double offset, double strength, double threshold,
+                             bool correct) {
+    const double u = weibull_exponent(s, offset, strength, threshold);
+    if (correct) return std::log(s.gamma + (1 - s.delta) * (1 - s.gamma) * -std::expm1(-u));
+    if (s.delta == 0) return std::log1p(-s.gamma) - u;
+    return std::log((1 - s.gamma) * (s.delta + (1 - s.delta) * std::exp(-u)));
 }
 
 }  // namespace stairstep

@@ -73,8 +73,7 @@ double Quest::suggest() const { return mean() + placement_; }
 
 void Quest::update(double intensity, bool correct) {
     for (size_t i = 0; i < log_posterior_.size(); ++i) {
-        const double p = probability_correct(shape_, offset_, intensity, threshold_at(i));
-        log_posterior_[i] += std::log(correct ? p : 1 - p);
+        log_posterior_[i] += log_likelihood(shape_, offset_, intensity, threshold_at(i), correct);
     }
     ++trials_;
     summarise();

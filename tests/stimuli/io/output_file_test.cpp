@@ -1,0 +1,45 @@
+#include "stimuli/io/output_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "stimuli/error.h"
+#include "stimuli/io/temporary_folder.h"
+
+namespace stairstep {
+namespace {
+
+TEST(OutputFile, AppearsOnlyOnCommit) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "out.txt";
+    {
+        OutputFile abandoned(path);
+        std::ofstream(abandoned.path()) << "half";
+        EXPECT_FALSE(std::filesystem::exists(path));
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+
+    write_file(path, "first");
+    {
+        OutputFile abandoned(path);
+        std::ofstream(abandoned.path()) << "half of the second";
+    }
+    EXPECT_EQ(read_file(path), "first");
+    write_file(path, "second");
+    EXPECT_EQ(read_file(path), "second");
+}
+
+TEST(OutputFile, SaysWhyItCannotBe) {
+    const TemporaryFolder folder;
+    EXPECT_THROW(write_file(folder.path() / "absent" / "x", ""), FailureError);
+    EXPECT_THROW(write_file(folder.path(), ""), FailureError);
+    EXPECT_THROW(make_output_folder("/proc/self/stairstep"), FailureError);
+    write_file(folder.path() / "file", "");
+    EXPECT_THROW(make_output_folder(folder.path() / "file"), FailureError);
+    EXPECT_THROW(read_file(folder.path() / "absent"), InputError);
+    EXPECT_THROW(read_file(folder.path()), InputError);
+}
+
+}  // namespace
+}  // namespace stairstep
