@@ -19,17 +19,18 @@ float visibility(Receiver receiver) {
     vec2 begin = low - first;
     vec2 end = begin + 2 * filter_radius;
 
+    // The first four texels share a corner at first + 1; textureGather returns them from the upper left clockwise.
+    vec2 corner = first + 1;
+    vec4 corner_depth = plane_depth(receiver, corner.x + vec4(-0.5, 0.5, 0.5, -0.5),
+                                    corner.y + vec4(0.5, 0.5, -0.5, -0.5));
     float lit_area = 0;
     for (int j = 0; j < gathers_per_side; ++j) {
         vec2 height = overlap(2 * j, begin.y, end.y);
         for (int i = 0; i < gathers_per_side; ++i) {
             vec2 width = overlap(2 * i, begin.x, end.x);
-            // The corner that four texels share; textureGather returns them from the upper left clockwise.
-            vec2 corner = first + vec2(2 * i, 2 * j) + 1;
-            vec4 stored = textureGather(shadow_map, corner / map_size);
-            vec2 offset = corner - receiver.texel;
-            vec4 is_lit = lit(receiver, offset.x + vec4(-0.5, 0.5, 0.5, -0.5),
-                              offset.y + vec4(0.5, 0.5, -0.5, -0.5), stored);
+            vec2 step_texels = 2 * vec2(i, j);
+            vec4 stored = textureGather(shadow_map, (corner + step_texels) / map_size);
+            vec4 is_lit = lit(corner_depth + dot(receiver.slope, step_texels), stored);
             lit_area += dot(is_lit, width.xyyx * height.yyxx);
         }
     }

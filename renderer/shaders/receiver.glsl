@@ -45,17 +45,20 @@ Receiver receiver_at(vec3 world, vec3 normal) {
     return Receiver(texel.xy, texel.z, slope, steepness * (subpixel + rounding) + 8 * 1.2e-7);
 }
 
-// Which of four depths read from the map, at texels with these offsets from the receiver, leave it lit. Depths beyond
-// the map's far end count as its end, where empty texels are: behind any caster, and lit where there is none.
-vec4 lit(Receiver receiver, vec4 offset_x, vec4 offset_y, vec4 stored) {
-    vec4 depth = receiver.depth - receiver.tolerance + receiver.slope.x * offset_x + receiver.slope.y * offset_y;
-    return step(min(depth, 1), stored);
+// Depth of the receiver's plane at four points of the map, less what rounding may have added: what the depths stored
+// there compare with.
+vec4 plane_depth(Receiver receiver, vec4 x, vec4 y) {
+    return receiver.depth - receiver.tolerance + receiver.slope.x * (x - receiver.texel.x) +
+           receiver.slope.y * (y - receiver.texel.y);
 }
+
+// Which depths read from the map leave these lit. Depths beyond the map's far end count as its end, where empty texels
+// are: behind any caster, and lit where there is none.
+vec4 lit(vec4 depth, vec4 stored) { return step(min(depth, 1), stored); }
 
 // Whether the light reaches the receiver past what the map holds at the texel around a point.
 float lit_at(Receiver receiver, vec2 point) {
     vec2 centre = floor(point) + 0.5;
     float stored = textureLod(shadow_map, centre / vec2(textureSize(shadow_map, 0)), 0).r;
-    vec2 offset = centre - receiver.texel;
-    return lit(receiver, vec4(offset.x), vec4(offset.y), vec4(stored)).x;
+    return lit(plane_depth(receiver, vec4(centre.x), vec4(centre.y)), vec4(stored)).x;
 }
