@@ -1,0 +1,46 @@
+// How far two pictures, or a picture and the truth, lie apart.
+#pragma once
+
+#include <vector>
+
+#include "stimuli/io/image_file.h"
+
+namespace stairstep {
+
+/// Between two pictures of one size, in 8-bit levels as displayed.
+struct PictureDifference {
+    /// Over all channels of all pixels.
+    double rmse_levels = 0;
+    int max_levels = 0;
+    /// Share of the pixels with a channel that differs by more than 1 and 8 levels.
+    double share_over_1_level = 0;
+    double share_over_8_levels = 0;
+};
+
+PictureDifference compare_pictures(const Image& a, const Image& b);
+
+/// |a − b| a channel, times scale ≥ 1, cut at 255.
+Image difference_picture(const Image& a, const Image& b, int scale);
+
+/// The largest scale that cuts nothing, at most 32 so that rounding noise stays dark.
+int difference_scale(const PictureDifference& difference);
+
+/// The error of a visibility against the true one; visibility is in [0, 1] and a level is 1/255.
+struct VisibilityError {
+    double rmse = 0;
+    /// Over the pixels of the penumbra alone, where the truth is neither 0 nor 1; 0 where there is none.
+    double penumbra_rmse = 0;
+    double max = 0;
+    double share_over_1_level = 0;
+    double share_over_8_levels = 0;
+    /// Share of the pixels that lie in the penumbra.
+    double penumbra_share = 0;
+};
+
+/// Both of the same length, at least 1.
+VisibilityError compare_visibility(const std::vector<float>& rendered, const std::vector<float>& truth);
+
+/// Visibility as a grey picture, 255 lit.
+Image visibility_picture(const std::vector<float>& visibility, int width, int height);
+
+}  // namespace stairstep

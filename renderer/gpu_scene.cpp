@@ -1,0 +1,61 @@
+#include "renderer/gpu_scene.h"
+
+#include <bit>
+#include <cstddef>
+
+namespace stairstep {
+namespace {
+
+gl::Texture upload_texture(const Image& image) {
+    // Four channels, whose rows need no padding.
+    std::vector<uint8_t> rgba;
+    rgba.reserve(image.pixels.size() / image.channels * 4);
+    for (size_t i = 0; i + image.channels <= image.pixels.size(); i += image.channels) {
+        for (int channel = 0; channel < 3; ++channel) {
+            rgba.push_back(image.pixels[i + (image.channels == 3 ? channel : 0)]);
+        }
+        rgba.push_back(255);
+    }
+    const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
+    gl::Texture texture = gl::make_texture(GL_SRGB8_ALPHA8, image.width, image.height, levels);
+    gl::TextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    gl::GenerateTextureMipmap(texture.id());
+    gl::TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl::TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return texture;
+}
+
+void set_attribute(const gl::VertexArray& array, GLuint index, GLint components, size_t offset) {
+    gl::EnableVertexArrayAttrib(array.id(), index);
+    gl::VertexArrayAttribFormat(array.id(), index, components, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+    gl::VertexArrayAttribBinding(array.id(), index, 0);
+}
+
+}  // namespace
+
+GpuScene upload(const Scene& scene) {
+    GpuScene gpu;
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.indices.empty()) continue;
+        gpu.draws.push_back({indices.size(), static_cast<GLsizei>(mesh.indices.size()),
+                             scene.materials[mesh.material], mesh.casts, mesh.fades});
+        const auto base = static_cast<uint32_t>(vertices.size());
+        for (const uint32_t index : mesh.indices) indices.push_back(base + index);
+        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    }
+    gpu.vertices = gl::make_buffer(std::as_bytes(std::span(vertices)));
+    gpu.indices = gl::make_buffer(std::as_bytes(std::span(indices)));
+    gpu.vertex_array = gl::make_vertex_array();
+    gl::VertexArrayVertexBuffer(gpu.vertex_array.id(), 0, gpu.vertices.id(), 0, sizeof(Vertex));
+    gl::VertexArrayElementBuffer(gpu.vertex_array.id(), gpu.indices.id());
+    set_attribute(gpu.vertex_array, 0, 3, offsetof(Vertex, position));
+    set_attribute(gpu.vertex_array, 1, 3, offsetof(Vertex, normal));
+    set_attribute(gpu.vertex_array, 2, 2, offsetof(Vertex, uv));
+    for (const Image& image : scene.textures) gpu.textures.push_back(upload_texture(image));
+    gl::throw_on_error("uploading the scene");
+    return gpu;
+}
+
+}  // namespace stairstep

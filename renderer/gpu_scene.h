@@ -1,0 +1,32 @@
+// A scene on the GPU: all meshes in one vertex and one index buffer, and a list of what to draw from them.
+#pragma once
+
+#include <vector>
+
+#include "renderer/gl/objects.h"
+#include "renderer/scene.h"
+
+namespace stairstep {
+
+struct GpuScene {
+    struct Draw {
+        size_t first_index = 0;
+        GLsizei index_count = 0;
+        Material material;
+        bool casts = true;
+        bool fades = false;
+    };
+
+    gl::Buffer vertices;
+    gl::Buffer indices;
+    /// Attributes 0 position, 1 normal, 2 uv.
+    gl::VertexArray vertex_array;
+    /// As Scene::textures; sRGB with mipmaps.
+    std::vector<gl::Texture> textures;
+    std::vector<Draw> draws;
+};
+
+/// Copies the scene to the GPU; it must hold at least one triangle. Throws FailureError.
+GpuScene upload(const Scene& scene);
+
+}  // namespace stairstep

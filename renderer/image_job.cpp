@@ -1,0 +1,301 @@
+#include "renderer/image_job.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/law/law_file.h"
+#include "analysis/law/sizing.h"
+#include "renderer/comparison.h"
+#include "renderer/gl/context.h"
+#include "renderer/scene_import.h"
+#include "renderer/techniques/techniques.h"
+#include "stimuli/error.h"
+#include "stimuli/io/json_file.h"
+#include "stimuli/io/output_file.h"
+#include "stimuli/io/program.h"
+#include "stimuli/number.h"
+
+namespace stairstep {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// The reference: map side, and taps a pixel.
+constexpr int kTruthSize = 8192;
+constexpr int kTruthTaps = 4096;
+
+/// One resolution of the job.
+struct Rendering {
+    std::string label;
+    ShadowRenderer renderer;
+    std::vector<FrameTime> times;
+    Image picture;
+    std::optional<VisibilityError> error;
+};
+
+std::string label_of(const std::optional<int>& resolution) {
+    return resolution ? std::to_string(*resolution) : "auto";
+}
+
+/// out.png → out-label.png
+fs::path labelled(const fs::path& out, const std::string& label) {
+    fs::path path = out;
+    return path.replace_filename(out.stem().string() + "-" + label + out.extension().string());
+}
+
+std::vector<fs::path> output_files(const ImageJob& job) {
+    std::vector<fs::path> files;
+    for (const auto& resolution : job.resolutions) {
+        files.push_back(job.resolutions.size() == 1 ? job.out : labelled(job.out, label_of(resolution)));
+    }
+    if (job.resolutions.size() > 1) files.push_back(labelled(job.out, "difference"));
+    if (job.truth) files.push_back(labelled(job.out, "truth"));
+    if (!job.stats.empty()) files.push_back(job.stats);
+    return files;
+}
+
+/// The law's slope for the box that PCF filters with.
+double box_slope(const Law& law, const ImageJob& job) {
+    if (law.kernel == KernelShape::box) return law.slope;
+    if (!job.convert_kernel) {
+        throw InputError(job.law, "is a law for the kernel " + std::string(name(law.kernel)) + ", the filter is a box",
+                         "use a law for box, or --convert-kernel to convert it by equal variance");
+    }
+    return slope_for_kernel(law, KernelShape::box);
+}
+
+double filter_radius_of(const ImageJob& job, const Bounds& casters) {
+    const double radius = job.radius.value_or(0.02 * casters.diagonal());
+    // Written so that NaN fails. Beyond the model's own size the map would be all margin.
+    if (!(radius > 0 && radius <= casters.diagonal())) {
+        throw InputError("--radius " + format_number(radius), "must be above 0 and at most the model's diagonal",
+                         "use one up to " + format_fixed(casters.diagonal(), 3) + " world units");
+    }
+    return radius;
+}
+
+double distance_along_view(const Camera& camera, const glm::dvec3& point) {
+    return glm::dot(camera.eye - point, camera.basis.back);
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+template <typename Measure>
+double median_of(const std::vector<FrameTime>& times, Measure measure) {
+    std::vector<double> values;
+    std::transform(times.begin(), times.end(), std::back_inserter(values), measure);
+    return median(std::move(values));
+}
+
+double frame_ms(const Rendering& rendering) {
+    return median_of(rendering.times, [](const FrameTime& t) { return t.depth.cpu_ms + t.lighting.cpu_ms; });
+}
+
+/// All resolutions' frames in turn, so that whatever else the machine does slows each alike.
+void time_frames(std::vector<Rendering>& renderings, int frames, const GpuScene& scene, const FrameView& view,
+                 const FrameTarget& target) {
+    gl::PassTimer timer;
+    for (Rendering& rendering : renderings) draw_frame(scene, view, rendering.renderer, target, timer);
+    for (int i = 0; i < frames; ++i) {
+        for (Rendering& rendering : renderings) {
+            rendering.times.push_back(draw_frame(scene, view, rendering.renderer, target, timer));
+        }
+    }
+}
+
+Image draw_picture(const GpuScene& scene, const FrameView& view, const ShadowRenderer& renderer,
+                   const FrameTarget& target) {
+    gl::PassTimer timer;
+    draw_frame(scene, view, renderer, target, timer);
+    return target.show == Show::colour ? read_colour(target)
+                                       : visibility_picture(read_visibility(target), target.width, target.height);
+}
+
+std::vector<float> draw_visibility(const GpuScene& scene, const FrameView& view, const ShadowRenderer& renderer,
+                                   const FrameTarget& target) {
+    gl::PassTimer timer;
+    draw_frame(scene, view, renderer, target, timer);
+    return read_visibility(target);
+}
+
+/// Draws the reference, measures every rendering against it and returns its picture.
+Image measure_errors(std::vector<Rendering>& renderings, const ImageJob& job, double radius,
+                     const LightFrustum& frustum, const GpuScene& scene, const FrameView& view) {
+    const FrameTarget target = make_frame_target(Show::visibility, job.width, job.height, 1);
+    const ShadowRenderer reference = make_shadow_renderer(
+        technique_named("pcf"), {radius, FilterMode::sampled, kTruthTaps}, map_of_size(frustum, kTruthSize));
+    const std::vector<float> truth = draw_visibility(scene, view, reference, target);
+    for (Rendering& rendering : renderings) {
+        rendering.error = compare_visibility(draw_visibility(scene, view, rendering.renderer, target), truth);
+    }
+    if (job.show == Show::visibility) return visibility_picture(truth, job.width, job.height);
+    return draw_picture(scene, view, reference, make_frame_target(job.show, job.width, job.height, job.samples));
+}
+
+ordered_json describe(const Rendering& rendering, const std::string& file, double radius, double pixel,
+                      const Interval& law_range) {
+    const ShadowMapShape& shape = rendering.renderer.map.shape;
+    const ShadowTechnique& technique = *rendering.renderer.technique;
+    // Of the two axes the one with the coarser texels: it is the one that shows.
+    const double texel = std::max(shape.texel().x, shape.texel().y);
+    const double texel_px = texel / pixel;
+    ordered_json json;
+    json["resolution"] = rendering.label;
+    json["width"] = shape.width;
+    json["height"] = shape.height;
+    json["texels"] = shape.texel_count();
+    json["limited_by"] = name(shape.limit);
+    json["radius_in_texels"] = radius / texel;
+    json["texel_px_on_screen"] = texel_px;
+    json["extrapolates"] = texel_px < law_range.first || texel_px > law_range.second;
+    json["filter"] = technique.lookup_kind() == "gathers" ? "exact" : technique.lookups() > 1 ? "sampled" : "none";
+    json[technique.lookup_kind()] = technique.lookups();
+    json["frame_ms"] = frame_ms(rendering);
+    json["depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.cpu_ms; });
+    json["lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.cpu_ms; });
+    json["gpu_depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.gpu_ms; });
+    json["gpu_lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.gpu_ms; });
+    json["file"] = file;
+    if (rendering.error) {
+        json["visibility_error"] = {{"rmse", rendering.error->rmse},
+                                    {"penumbra_rmse", rendering.error->penumbra_rmse},
+                                    {"max", rendering.error->max},
+                                    {"share_over_1_level", rendering.error->share_over_1_level},
+                                    {"share_over_8_levels", rendering.error->share_over_8_levels},
+                                    {"penumbra_share", rendering.error->penumbra_share}};
+    }
+    return json;
+}
+
+}  // namespace
+
+ordered_json run_image_job(const ImageJob& job) {
+    const TechniqueEntry& technique = technique_named(job.technique);
+    const Law law = law_named(job.law);
+    const double slope = box_slope(law, job);
+    const std::vector<fs::path> files = output_files(job);
+    // What can't be written is found out before anything is drawn.
+    for (const fs::path& file : files) OutputFile probe(file);
+
+    ImportedScene imported = import_scene(job.scene);
+    for (const std::string& warning : imported.warnings) warn(job.scene.string().c_str(), warning.c_str());
+    Scene& scene = imported.scene;
+    const size_t triangles = triangle_count(scene);
+    const Bounds casters = caster_bounds(scene);
+    const double radius = filter_radius_of(job, casters);
+    add_ground(scene, 8);
+
+    const std::vector<glm::dvec3> points = points_of_interest(casters, job.light);
+    const FrameView view{framing_camera(points, job.camera, static_cast<double>(job.width) / job.height,
+                                        job.camera_distance, 8 * casters.diagonal()),
+                         casters.centre(), casters.diagonal()};
+    const double pixel = pixel_footprint(view.camera, distance_along_view(view.camera, casters.centre()), job.height);
+    double nearest = INFINITY;
+    for (const glm::dvec3& point : points) nearest = std::min(nearest, distance_along_view(view.camera, point));
+    const LightFrustum frustum = fit_light_frustum(scene, job.light, radius);
+    const SizeRequest sizing{slope, radius, 0,
+                             pixel_footprint(view.camera, std::max(nearest, view.camera.near), job.height),
+                             job.largest_size};
+
+    const auto context = gl::make_osmesa_context();
+    const GpuScene gpu_scene = upload(scene);
+    const FrameTarget target = make_frame_target(job.show, job.width, job.height, job.samples);
+    std::vector<Rendering> renderings;
+    for (const auto& resolution : job.resolutions) {
+        const ShadowMapShape shape = resolution ? map_of_size(frustum, *resolution) : map_by_law(frustum, sizing);
+        renderings.push_back({label_of(resolution),
+                              make_shadow_renderer(technique, {radius, job.filter, job.taps}, shape), {}, {}, {}});
+    }
+    time_frames(renderings, job.frames, gpu_scene, view, target);
+
+    ordered_json stats;
+    stats["program"] = "stairstep-render " STAIRSTEP_VERSION;
+    stats["scene"] = job.scene.string();
+    stats["triangles"] = triangles;
+    stats["technique"] = job.technique;
+    stats["law"] = {{"file", job.law},
+                    {"kernel", name(law.kernel)},
+                    {"slope", law.slope},
+                    {"slope_for_box", slope},
+                    {"kernel_converted", law.kernel != KernelShape::box},
+                    {"texel_range_px", law.texel_range_px}};
+    stats["radius"] = radius;
+    stats["radius_px_on_screen"] = radius / pixel;
+    stats["light_extent"] = {frustum.extent().x, frustum.extent().y};
+    stats["renderer"] = gl::renderer_name();
+    stats["image_width"] = job.width;
+    stats["image_height"] = job.height;
+    stats["samples"] = job.samples;
+    stats["frames"] = job.frames;
+
+    for (Rendering& rendering : renderings) {
+        rendering.picture = draw_picture(gpu_scene, view, rendering.renderer, target);
+    }
+    if (job.truth) {
+        const Image truth = measure_errors(renderings, job, radius, frustum, gpu_scene, view);
+        const fs::path file = labelled(job.out, "truth");
+        write_png(file, truth);
+        stats["truth"] = {{"file", file.string()}, {"width", kTruthSize}, {"height", kTruthSize}, {"taps", kTruthTaps}};
+    }
+    stats["renderings"] = ordered_json::array();
+    for (size_t i = 0; i < renderings.size(); ++i) {
+        write_png(files[i], renderings[i].picture);
+        stats["renderings"].push_back(
+            describe(renderings[i], files[i].string(), radius, pixel, law.texel_range_px));
+    }
+    if (renderings.size() > 1) {
+        const Rendering& first = renderings.front();
+        const Rendering& last = renderings.back();
+        const PictureDifference difference = compare_pictures(first.picture, last.picture);
+        const int scale = difference_scale(difference);
+        const fs::path file = labelled(job.out, "difference");
+        write_png(file, difference_picture(first.picture, last.picture, scale));
+        stats["difference"] = {{"between", {first.label, last.label}},
+                               {"file", file.string()},
+                               {"scale", scale},
+                               {"rmse_levels", difference.rmse_levels},
+                               {"max_levels", difference.max_levels},
+                               {"share_over_1_level", difference.share_over_1_level},
+                               {"share_over_8_levels", difference.share_over_8_levels}};
+        stats["speedup"] = frame_ms(first) / frame_ms(last);
+    }
+    if (!job.stats.empty()) write_json(job.stats, stats);
+    return stats;
+}
+
+std::string summary_of(const ordered_json& stats) {
+    std::string text = stats["scene"].get<std::string>() + ", " + std::to_string(stats["triangles"].get<size_t>()) +
+                       " triangles, " + stats["technique"].get<std::string>() + " with a radius of " +
+                       format_fixed(stats["radius"], 4) + " (" + format_fixed(stats["radius_px_on_screen"], 1) +
+                       " px on screen), on " + stats["renderer"].get<std::string>() + ".\n";
+    for (const ordered_json& rendering : stats["renderings"]) {
+        text += "  " + rendering["resolution"].get<std::string>() + ": " + std::to_string(rendering["width"].get<int>()) +
+                "x" + std::to_string(rendering["height"].get<int>()) + " texels of " +
+                format_fixed(rendering["texel_px_on_screen"], 1) + " px, " + format_fixed(rendering["frame_ms"], 1) +
+                " ms a frame (depth " + format_fixed(rendering["depth_ms"], 1) + ", lighting " +
+                format_fixed(rendering["lighting_ms"], 1) + ")";
+        if (rendering.contains("visibility_error")) {
+            text += ", penumbra error " + format_fixed(rendering["visibility_error"]["penumbra_rmse"], 4);
+        }
+        if (rendering["resolution"] == "auto" && rendering["extrapolates"].get<bool>()) {
+            text += ", beyond the texel sizes that the law was measured at";
+        }
+        text += "; " + rendering["file"].get<std::string>() + "\n";
+    }
+    if (stats.contains("difference")) {
+        const ordered_json& difference = stats["difference"];
+        text += "  " + format_fixed(stats["speedup"], 2) + " times as fast; " +
+                format_fixed(100 * difference["share_over_8_levels"].get<double>(), 2) +
+                " % of the pixels differ by more than 8 levels of 255, at most by " +
+                std::to_string(difference["max_levels"].get<int>()) + "; " + difference["file"].get<std::string>() +
+                " (times " + std::to_string(difference["scale"].get<int>()) + ")\n";
+    }
+    return text;
+}
+
+}  // namespace stairstep

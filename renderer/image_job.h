@@ -1,0 +1,55 @@
+// The job of `stairstep-render image`: one scene, drawn with one technique at one or more shadow-map sizes, timed
+// side by side, compared, and written as pictures with their statistics.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/frame.h"
+#include "renderer/techniques/technique.h"
+
+namespace stairstep {
+
+struct ImageJob {
+    std::filesystem::path scene;
+    std::string technique = "pcf";
+    /// Sides of fixed square maps; nullopt is the law's own size. At least one, none twice.
+    std::vector<std::optional<int>> resolutions{std::nullopt};
+    /// A file, or "kreuzer2017".
+    std::string law = "kreuzer2017";
+    /// Whether a law of another kernel than the box may be converted by equal variance.
+    bool convert_kernel = false;
+    /// Half-width of the box, world units; by default 2 % of the diagonal of the model's bounds.
+    std::optional<double> radius;
+    FilterMode filter = FilterMode::automatic;
+    int taps = 25;
+    int largest_size = 8192;
+    int width = 1280;
+    int height = 720;
+    int samples = 1;
+    /// Frames timed for each resolution, ≥ 1, after one that isn't.
+    int frames = 5;
+    Direction camera{35, 24};
+    double camera_distance = 1;
+    Direction light{-50, 48};
+    Show show = Show::colour;
+    /// Whether to draw a converged reference and measure each rendering's visibility against it.
+    bool truth = false;
+    /// The picture, PNG. For two or more resolutions their names go before the extension: out-4096.png, out-auto.png,
+    /// and out-difference.png (first against last); so does out-truth.png.
+    std::filesystem::path out;
+    /// JSON; empty for none.
+    std::filesystem::path stats;
+};
+
+/// Does the job with OSMesa and returns the statistics (keys: README). Pictures are written before the
+/// statistics, each whole or not at all. Throws InputError and FailureError.
+nlohmann::ordered_json run_image_job(const ImageJob& job);
+
+/// The statistics in a paragraph for people.
+std::string summary_of(const nlohmann::ordered_json& stats);
+
+}  // namespace stairstep

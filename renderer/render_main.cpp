@@ -1,0 +1,195 @@
+// stairstep-render: sizes shadow maps by the law and draws scenes with them.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <optional>
+
+#include "analysis/law/law_file.h"
+#include "analysis/law/sizing.h"
+#include "renderer/image_job.h"
+#include "renderer/techniques/techniques.h"
+#include "stimuli/error.h"
+#include "stimuli/io/program.h"
+#include "stimuli/number.h"
+#include "stimuli/stimulus.h"
+
+namespace stairstep {
+namespace {
+
+struct SizeOptions {
+    std::string law = "kreuzer2017";
+    double radius = 0;
+    double extent = 0;
+    double smallest_texel = 0;
+    int largest_size = 16384;
+    bool json = false;
+};
+
+struct ImageOptions {
+    ImageJob job;
+    std::string resolution = "auto";
+    std::string size = "1280x720";
+    std::string filter = "auto";
+    std::string camera = "35,24";
+    std::string light = "-50,48";
+    std::string show = "colour";
+    bool json = false;
+};
+
+void print_size(const SizeOptions& options) {
+    const Law law = law_named(options.law);
+    const MapSize size = shadow_map_size(
+        {law.slope, options.radius, options.extent, options.smallest_texel, options.largest_size});
+    if (size.limit == SizeLimit::largest_size) {
+        const std::string wanted =
+            size.texels_wanted < 1e15 ? format_fixed(size.texels_wanted, 0) : "more than a million billion";
+        throw FailureError("shadow map", "the law wants " + wanted + " texels a side, --largest-size allows " +
+                                             std::to_string(options.largest_size),
+                           "use a larger --radius or --smallest-texel, or a smaller --extent");
+    }
+    if (options.json) {
+        const nlohmann::ordered_json json{{"texels", size.texels},
+                                          {"limited_by", size.limit == SizeLimit::screen ? "screen" : "law"},
+                                          {"slope", law.slope},
+                                          {"kernel", name(law.kernel)}};
+        std::cout << json.dump(2) << "\n";
+    } else {
+        std::cout << size.texels << "\n";
+    }
+}
+
+/// A whole number in [1, kLargestSide].
+std::optional<int> side_of(const std::string& text) {
+    const auto number = parse_number(text);
+    if (!number || !(*number >= 1 && *number <= kLargestSide) || *number != std::floor(*number)) return std::nullopt;
+    return static_cast<int>(*number);
+}
+
+std::vector<std::optional<int>> resolutions_of(const std::string& text) {
+    std::vector<std::optional<int>> resolutions;
+    for (const std::string& part : split(text, ',')) {
+        const std::optional<int> side = side_of(part);
+        if (!side && part != "auto") {
+            throw InputError("--resolution", "\"" + part + "\" is no shadow-map size", "use auto or 1 to 16384");
+        }
+        if (std::find(resolutions.begin(), resolutions.end(), side) != resolutions.end()) {
+            throw InputError("--resolution", "\"" + part + "\" is listed twice", "list each size once");
+        }
+        resolutions.push_back(side);
+    }
+    if (resolutions.empty()) throw InputError("--resolution", "is empty", "use auto or 1 to 16384");
+    return resolutions;
+}
+
+/// "azimuth,elevation" and, where `factor` isn't null, ",factor" after it.
+Direction direction_of(const std::string& flag, const std::string& text, double* factor) {
+    const std::vector<std::string> parts = split(text, ',');
+    std::vector<double> numbers;
+    for (const std::string& part : parts) {
+        if (const auto number = parse_number(part)) numbers.push_back(*number);
+    }
+    const bool complete = numbers.size() == parts.size() && (numbers.size() == 2 || (factor && numbers.size() == 3));
+    if (!complete || std::abs(numbers[0]) > 3600 || !(numbers[1] >= 1 && numbers[1] <= 90) ||
+        (numbers.size() == 3 && !(numbers[2] >= 0.05 && numbers[2] <= 20))) {
+        throw InputError(flag, "\"" + text + "\" is no direction",
+                         factor ? "write azimuth,elevation[,distance]: degrees, elevation 1 to 90, distance 0.05 to 20"
+                                : "write azimuth,elevation in degrees, elevation 1 to 90");
+    }
+    if (numbers.size() == 3) *factor = numbers[2];
+    return {numbers[0], numbers[1]};
+}
+
+ImageJob job_of(const ImageOptions& options) {
+    ImageJob job = options.job;
+    job.resolutions = resolutions_of(options.resolution);
+    const std::vector<std::string> sides = split(options.size, 'x');
+    const std::optional<int> width = sides.size() == 2 ? side_of(sides[0]) : std::nullopt;
+    const std::optional<int> height = sides.size() == 2 ? side_of(sides[1]) : std::nullopt;
+    if (!width || !height) {
+        throw InputError("--size", "\"" + options.size + "\" is no image size",
+                         "write WIDTHxHEIGHT, each 1 to 16384, as 1280x720");
+    }
+    job.width = *width;
+    job.height = *height;
+    job.filter = options.filter == "exact"     ? FilterMode::exact
+                 : options.filter == "sampled" ? FilterMode::sampled
+                                               : FilterMode::automatic;
+    job.camera = direction_of("--camera", options.camera, &job.camera_distance);
+    job.light = direction_of("--light", options.light, nullptr);
+    job.show = options.show == "visibility" ? Show::visibility : Show::colour;
+    if (job.out.extension() != ".png") {
+        throw InputError("--out", "\"" + job.out.string() + "\" is no PNG file name", "use a name that ends in .png");
+    }
+    return job;
+}
+
+void draw_image(const ImageOptions& options) {
+    const nlohmann::ordered_json stats = run_image_job(job_of(options));
+    std::cout << (options.json ? stats.dump(2) + "\n" : summary_of(stats));
+}
+
+void add_size_command(CLI::App& app, SizeOptions& options) {
+    CLI::App* command = app.add_subcommand("size", "Prints how many texels a side a shadow map needs.");
+    command->add_option("--law", options.law, "law.json, or kreuzer2017")->capture_default_str();
+    command->add_option("--radius", options.radius, "half-width of the filter, in the unit of --extent")->required();
+    command->add_option("--extent", options.extent, "what the map spans, as 28 (m)")->required();
+    command->add_option("--smallest-texel", options.smallest_texel, "a pixel's footprint: finer texels are of no use")
+        ->capture_default_str();
+    command->add_option("--largest-size", options.largest_size, "texels a side that may be had")->capture_default_str();
+    command->add_flag("--json", options.json, "print JSON");
+    command->callback([&options] { print_size(options); });
+}
+
+void add_image_command(CLI::App& app, ImageOptions& options) {
+    ImageJob& job = options.job;
+    std::string techniques;
+    for (const TechniqueEntry& entry : stairstep::techniques()) {
+        techniques += (techniques.empty() ? "" : ", ") + std::string(entry.name) + " (" + std::string(entry.summary) + ")";
+    }
+    CLI::App* command = app.add_subcommand("image", "Draws a model on a ground plane with shadows, and measures it.");
+    command->add_option("scene", job.scene, "a model: glTF, OBJ, Collada and others")->required();
+    command->add_option("--technique", job.technique, techniques)->capture_default_str();
+    command->add_option("--resolution", options.resolution,
+                        "shadow-map sizes: auto (the law's) or texels a side; 4096,auto draws and compares both")
+        ->capture_default_str();
+    command->add_option("--law", job.law, "law.json, or kreuzer2017")->capture_default_str();
+    command->add_flag("--convert-kernel", job.convert_kernel, "accept a law of another kernel, by equal variance");
+    command->add_option("--radius", job.radius, "half-width of the filter, world units; default: 2 % of the model's diagonal");
+    command->add_option("--filter", options.filter, "exact weighs every texel, sampled takes --taps")
+        ->check(CLI::IsMember({"auto", "exact", "sampled"}))
+        ->capture_default_str();
+    command->add_option("--taps", job.taps, "for sampled: a square number up to 4096")->capture_default_str();
+    command->add_option("--largest-size", job.largest_size, "most texels a side for auto")
+        ->check(CLI::Range(1, kLargestSide))
+        ->capture_default_str();
+    command->add_option("--size", options.size, "of the picture, px")->capture_default_str();
+    command->add_option("--samples", job.samples, "a pixel, for smooth outlines")
+        ->check(CLI::Range(1, 32))
+        ->capture_default_str();
+    command->add_option("--frames", job.frames, "timed for each resolution")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_option("--camera", options.camera, "azimuth,elevation[,distance factor]; degrees")->capture_default_str();
+    command->add_option("--light", options.light, "azimuth,elevation; degrees")->capture_default_str();
+    command->add_option("--show", options.show, "the lit scene, or visibility alone")
+        ->check(CLI::IsMember({"colour", "visibility"}))
+        ->capture_default_str();
+    command->add_flag("--truth", job.truth, "also draw a converged reference and measure the error against it");
+    command->add_option("--out", job.out, "PNG; for several resolutions NAME-4096.png and so on")->required();
+    command->add_option("--stats", job.stats, "JSON file for sizes, times and errors");
+    command->add_flag("--json", options.json, "print the statistics as JSON");
+    command->callback([&options] { draw_image(options); });
+}
+
+}  // namespace
+}  // namespace stairstep
+
+int main(int argc, char** argv) {
+    stairstep::SizeOptions size;
+    stairstep::ImageOptions image;
+    CLI::App app("Shadow maps no larger than a person can see.", "stairstep-render");
+    app.require_subcommand(1);
+    stairstep::add_size_command(app, size);
+    stairstep::add_image_command(app, image);
+    return stairstep::run_program(app, argc, argv);
+}
