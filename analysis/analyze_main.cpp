@@ -63,9 +63,10 @@ void write_report(const std::string& trials_path, double p_threshold, const Repo
     const std::string source = std::filesystem::path(trials_path).filename().string();
     const LawFit fit = fit_law(trials, p_threshold, source);
     print_warnings(fit);
+    const std::string html = report_html(trials, fit, inputs);
     make_output_folder(folder);
     const std::filesystem::path file = std::filesystem::path(folder) / "report.html";
-    write_file(file, report_html(trials, fit, inputs));
+    write_file(file, html);
     std::cout << "wrote " << file.string() << "\n";
 }
 

@@ -58,6 +58,7 @@ std::optional<LawParameters<double>> fit(const std::vector<Threshold>& threshold
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.logging_type = ceres::SILENT;
+    options.initial_trust_region_radius = 1e12;  // one to three parameters of order 1: plain Gauss-Newton steps
     options.function_tolerance = 1e-18;
     options.gradient_tolerance = 1e-12;
     options.parameter_tolerance = 1e-12;

@@ -121,15 +121,15 @@ std::string renderings_section(const fs::path& stats_path) {
     std::string rows;
     for (const json& r : *renderings) {
         if (!r.is_object()) throw InputError(source, "\"renderings\" holds something else", "write it again");
-        const std::string size = number_or_dash(r, "map_width", 0) + " × " + number_or_dash(r, "map_height", 0);
+        const std::string size = number_or_dash(r, "width", 0) + " × " + number_or_dash(r, "height", 0);
         const std::string title = json_text(r, "resolution", source) + ": " + size + " texels";
         pictures += "<figure>" + embedded_png(stats_path.parent_path() / json_text(r, "file", source), title) +
                     "<figcaption>" + escaped(title) + "</figcaption></figure>\n";
-        const json errors = r.value("error", json::object());
+        const json errors = r.value("visibility_error", json::object());
         rows += "<tr><td>" + escaped(json_text(r, "resolution", source)) + "</td><td>" + size + "</td><td>" +
                 escaped(json_text(r, "filter", source)) + "</td><td>" + number_or_dash(r, "frame_ms", 1) + "</td><td>" +
                 number_or_dash(r, "depth_ms", 1) + "</td><td>" + number_or_dash(r, "lighting_ms", 1) + "</td><td>" +
-                number_or_dash(errors, "rmse_penumbra", 4) + "</td></tr>\n";
+                number_or_dash(errors, "penumbra_rmse", 4) + "</td></tr>\n";
     }
     std::string difference;
     if (const auto found = stats.find("difference"); found != stats.end() && found->is_object()) {
@@ -140,7 +140,7 @@ std::string renderings_section(const fs::path& stats_path) {
     }
     return "<h2>What the law saves</h2>\n<p>" + escaped(fs::path(json_text(stats, "scene", source)).filename().string()) +
            " with percentage-closer filtering of one and the same radius, at the fixed size and at the law's. Times are medians "
-           "from one run, in which the two took turns, on " + escaped(json_text(stats, "gl_renderer", source)) +
+           "from one run, in which the two took turns, on " + escaped(json_text(stats, "renderer", source)) +
            ".</p>\n<div class=\"pair\">\n" + pictures + "</div>\n" +
            "<table>\n<tr><th>map</th><th>size</th><th>filter</th><th>frame, ms</th><th>depth pass</th><th>lighting</th>"
            "<th>error in the penumbra</th></tr>\n" + rows + "</table>\n" + difference;

@@ -53,8 +53,8 @@ auto TrialStore::guarded(const Action& action) const {
     }
 }
 
-TrialStore::TrialStore(std::filesystem::path path, int flags) try
-    : path_(std::move(path)), database_(path_.string(), flags) {
+TrialStore::TrialStore(const std::filesystem::path& path, int flags) try
+    : path_(path), database_(path.string(), flags) {
 } catch (const SQLite::Exception& e) {
     translate(path, e);
 }

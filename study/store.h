@@ -54,7 +54,7 @@ class TrialStore {
     std::vector<Trial> trials() const;
 
   private:
-    TrialStore(std::filesystem::path path, int flags);
+    TrialStore(const std::filesystem::path& path, int flags);
 
     template <typename Action>
     auto guarded(const Action& action) const;
