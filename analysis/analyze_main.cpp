@@ -62,7 +62,6 @@ void write_report(const std::string& trials_path, double p_threshold, const Repo
     const std::vector<Trial> trials = read_trials(trials_path);
     const std::string source = std::filesystem::path(trials_path).filename().string();
     const LawFit fit = fit_law(trials, p_threshold, source);
-    print_warnings(fit);
     const std::string html = report_html(trials, fit, inputs);
     make_output_folder(folder);
     const std::filesystem::path file = std::filesystem::path(folder) / "report.html";

@@ -97,6 +97,13 @@ std::string law_rows(const Law& law) {
     return rows;
 }
 
+std::string warnings_list(const std::vector<std::string>& warnings) {
+    if (warnings.empty()) return "";
+    std::string items;
+    for (const std::string& warning : warnings) items += "<li>" + escaped(warning) + "</li>\n";
+    return "<p>To know about this fit:</p>\n<ul>\n" + items + "</ul>\n";
+}
+
 std::string contact_sheet_section(const std::string& path) {
     return "<h2>What the observers judge</h2>\n<figure>" + embedded_png(path, "contact sheet of filtered shadow edges") +
            "<figcaption>Filtered shadow edges, at half size. Down a column the texel grows and the steps come back; along "
@@ -165,6 +172,7 @@ std::string report_html(const std::vector<Trial>& trials, const LawFit& fit, con
         .text("first_condition", describe(first.condition.pattern, first.condition.contrast))
         .text("source", law.source)
         .set("law_rows", law_rows(law))
+        .set("warnings", warnings_list(fit.warnings))
         .set("law_figure", inline_svg(law_figure(fit)))
         .set("convergence_figure", inline_svg(convergence_figure(trials, fit)))
         .set("contact_sheet", inputs.contact_sheet.empty() ? "" : contact_sheet_section(inputs.contact_sheet))

@@ -1,6 +1,7 @@
 #include "study/store.h"
 
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include "embedded/study.h"
 #include "stimuli/error.h"
@@ -87,8 +88,11 @@ TrialStore TrialStore::create(const std::filesystem::path& path, const std::stri
 TrialStore TrialStore::open(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) throw InputError(path.string(), "doesn't exist", "check the path");
     if (std::filesystem::is_directory(path)) throw InputError(path.string(), "is a folder", "name a database");
-    TrialStore store(path, SQLite::OPEN_READONLY);
+    // A reader who may write tidies the write-ahead log up when it closes; one who may not leaves it as it is.
+    const bool writable = access(path.c_str(), W_OK) == 0;
+    TrialStore store(path, writable ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY);
     store.guarded([&] {
+        store.database_.exec("PRAGMA query_only = ON");
         if (pragma(store.database_, "application_id") != kApplicationId) {
             throw InputError(path.string(), "is no Stairstep study", "name a database that stairstep-study wrote");
         }

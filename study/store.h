@@ -35,7 +35,7 @@ class TrialStore {
     static TrialStore create(const std::filesystem::path& path, const std::string& study,
                              const std::string& design_json);
 
-    /// An existing one, to read.
+    /// An existing one, to read; nothing can be recorded through it.
     static TrialStore open(const std::filesystem::path& path);
 
     /// Starts a session; its `session` number is assigned and returned.

@@ -44,13 +44,23 @@ TEST(TrialStore, ReadsBackWhatWasRecorded) {
         }
         store.finish_session(session);
     }
-    const TrialStore store = TrialStore::open(path);
+    TrialStore store = TrialStore::open(path);
+    EXPECT_THROW(store.append(some_trial(1, 6)), FailureError);  // opened to read
     EXPECT_EQ(trials_csv(store.trials()), trials_csv(recorded));
     EXPECT_EQ(store.study(), "s");
     EXPECT_EQ(store.design_json(), "{\"a\":1}");
     ASSERT_EQ(store.sessions().size(), 1u);
     EXPECT_EQ(store.sessions()[0].seed, 42u);
     EXPECT_TRUE(store.sessions()[0].finished);
+}
+
+TEST(TrialStore, LeavesOneFileBehindWhoeverReadsIt) {
+    const TemporaryFolder folder;
+    TrialStore::create(folder.path() / "study.sqlite", "s", "{}");
+    TrialStore::open(folder.path() / "study.sqlite").trials();
+    int files = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files;
+    EXPECT_EQ(files, 1);
 }
 
 TEST(TrialStore, IsDurableInWalWithFullSync) {
