@@ -68,8 +68,10 @@ void draw_lighting_pass(const GpuScene& scene, const FrameView& view, const Shad
     gl::ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, &background.x);
     gl::ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest);
     gl::UseProgram(program.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, scene.facet_normals.id());
     gl::BindTextureUnit(0, shadows.map.depth.id());
     for (const GpuScene::Draw& draw : scene.draws) {
+        gl::set_uniform(program, "first_triangle", static_cast<int>(draw.first_index / 3));
         gl::set_uniform(program, "base_colour", draw.material.base_colour);
         gl::set_uniform(program, "textured", draw.material.texture ? 1 : 0);
         gl::set_uniform(program, "fade_far", draw.fades ? static_cast<float>(4 * view.diagonal) : -1.0f);

@@ -66,7 +66,7 @@ double box_slope(const Law& law, const ImageJob& job) {
 }
 
 double filter_radius_of(const ImageJob& job, const Bounds& casters) {
-    const double radius = job.radius.value_or(0.02 * casters.diagonal());
+    const double radius = job.radius.value_or(0.025 * casters.diagonal());
     // Written so that NaN fails. Beyond the model's own size the map would be all margin.
     if (!(radius > 0 && radius <= casters.diagonal())) {
         throw InputError("--radius " + format_number(radius), "must be above 0 and at most the model's diagonal",

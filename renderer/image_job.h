@@ -22,7 +22,7 @@ struct ImageJob {
     std::string law = "kreuzer2017";
     /// Whether a law of another kernel than the box may be converted by equal variance.
     bool convert_kernel = false;
-    /// Half-width of the box, world units; by default 2 % of the diagonal of the model's bounds.
+    /// Half-width of the box, world units; by default 2.5 % of the diagonal of the model's bounds.
     std::optional<double> radius;
     FilterMode filter = FilterMode::automatic;
     int taps = 25;

@@ -154,7 +154,7 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
         ->capture_default_str();
     command->add_option("--law", job.law, "law.json, or kreuzer2017")->capture_default_str();
     command->add_flag("--convert-kernel", job.convert_kernel, "accept a law of another kernel, by equal variance");
-    command->add_option("--radius", job.radius, "half-width of the filter, world units; default: 2 % of the model's diagonal");
+    command->add_option("--radius", job.radius, "half-width of the filter, world units; default: 2.5 % of the model's diagonal");
     command->add_option("--filter", options.filter, "exact weighs every texel, sampled takes --taps")
         ->check(CLI::IsMember({"auto", "exact", "sampled"}))
         ->capture_default_str();
