@@ -11,7 +11,7 @@ namespace stairstep::gl {
 struct PassTime {
     /// Between two glFinish, ms.
     double cpu_ms = 0;
-    /// GL_TIME_ELAPSED, ms.
+    /// GL_TIME_ELAPSED, ms; never above cpu_ms.
     double gpu_ms = 0;
 };
 

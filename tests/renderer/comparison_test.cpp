@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "renderer/comparison.h"
 
 namespace stairstep {
