@@ -1,5 +1,5 @@
-// How long a pass takes, measured twice: on the CPU's clock from an idle GPU until it is idle again (what a user
-// waits for), and by the driver's own timer query (what the GPU worked).
+// How long a pass takes, measured twice: on the CPU's clock from an idle GPU until it is idle again (what a
+// user waits for), and by the driver's own timer query (what the GPU worked).
 #pragma once
 
 #include <chrono>

@@ -33,7 +33,9 @@ TEST(Comparison, VisibilityErrorsKnowThePenumbra) {
     EXPECT_DOUBLE_EQ(error.share_over_8_levels, 0.5);
 }
 
-TEST(Comparison, NoPenumbraIsNoError) { EXPECT_EQ(compare_visibility({0, 1}, {0, 1}).penumbra_rmse, 0); }
+TEST(Comparison, NoPenumbraIsNoError) {
+    EXPECT_EQ(compare_visibility({0, 1}, {0, 1}).penumbra_rmse, 0);
+}
 
 }  // namespace
 }  // namespace stairstep

@@ -12,10 +12,11 @@ namespace stairstep {
 namespace {
 
 template <typename T>
-constexpr bool kMoveOnly = std::is_nothrow_move_constructible_v<T> && std::is_nothrow_move_assignable_v<T> &&
+constexpr bool kMoveOnly = std::is_nothrow_move_constructible_v<T>&& std::is_nothrow_move_assignable_v<T> &&
                            !std::is_copy_constructible_v<T> && !std::is_copy_assignable_v<T>;
 static_assert(kMoveOnly<gl::Texture> && kMoveOnly<gl::Buffer> && kMoveOnly<gl::VertexArray> &&
-              kMoveOnly<gl::Framebuffer> && kMoveOnly<gl::Query> && kMoveOnly<gl::Shader> && kMoveOnly<gl::Program>);
+              kMoveOnly<gl::Framebuffer> && kMoveOnly<gl::Query> && kMoveOnly<gl::Shader> &&
+              kMoveOnly<gl::Program>);
 
 TEST(Gl, AMissingFunctionIsNamed) {
     try {
@@ -31,7 +32,9 @@ class GlWithContext : public testing::Test {
     std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
 };
 
-TEST_F(GlWithContext, SaysWhatItRunsOn) { EXPECT_FALSE(gl::renderer_name().empty()); }
+TEST_F(GlWithContext, SaysWhatItRunsOn) {
+    EXPECT_FALSE(gl::renderer_name().empty());
+}
 
 TEST_F(GlWithContext, AMovedObjectIsOwnedOnce) {
     gl::Texture first = gl::make_texture(GL_RGBA8, 4, 4);
@@ -54,9 +57,11 @@ TEST_F(GlWithContext, AShaderErrorCarriesTheDriversLog) {
 }
 
 TEST_F(GlWithContext, ALinkErrorIsOneToo) {
-    EXPECT_THROW(gl::make_program("unlinked", {"#version 450 core\nvoid main() { gl_Position = vec4(0); }\n"},
-                                  {"#version 450 core\nvec3 missing();\nout vec4 c;\nvoid main() { c = vec4(missing(), 1); }\n"}),
-                 FailureError);
+    EXPECT_THROW(
+        gl::make_program(
+            "unlinked", {"#version 450 core\nvoid main() { gl_Position = vec4(0); }\n"},
+            {"#version 450 core\nvec3 missing();\nout vec4 c;\nvoid main() { c = vec4(missing(), 1); }\n"}),
+        FailureError);
 }
 
 TEST_F(GlWithContext, AWrongCallIsReportedOnceAndByName) {

@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kSlope = 3.47;
 
-Scene slab() { return made::scene_of(made::box({-2, 0, -0.5f}, {2, 0.3f, 0.5f})); }
+Scene slab() {
+    return made::scene_of(made::box({-2, 0, -0.5f}, {2, 0.3f, 0.5f}));
+}
 
 TEST(LightFrustum, HoldsAllCastersWithTheMargin) {
     const Scene scene = slab();

@@ -33,7 +33,8 @@ Outcome run(const std::string& arguments) {
     FILE* pipe = popen(command.c_str(), "r");
     if (!pipe) return outcome;
     std::array<char, 4096> part;
-    while (const size_t length = fread(part.data(), 1, part.size(), pipe)) outcome.text.append(part.data(), length);
+    while (const size_t length = fread(part.data(), 1, part.size(), pipe))
+        outcome.text.append(part.data(), length);
     const int status = pclose(pipe);
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return outcome;
@@ -87,8 +88,9 @@ TEST_F(RenderProgram, SizeSaysWhenNoMapIsLargeEnough) {
 }
 
 TEST_F(RenderProgram, ImageDrawsComparesAndMeasures) {
-    const Outcome outcome = run("image " + kTruck + " --resolution 1024,auto --size 320x180 --frames 1 --truth --out " +
-                                at("img.png") + " --stats " + at("stats.json"));
+    const Outcome outcome =
+        run("image " + kTruck + " --resolution 1024,auto --size 320x180 --frames 1 --truth --out " +
+            at("img.png") + " --stats " + at("stats.json"));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
     const nlohmann::json stats = read_json(at("stats.json"));
     EXPECT_EQ(stats["triangles"], 3624);
@@ -116,7 +118,8 @@ TEST_F(RenderProgram, ImageDrawsComparesAndMeasures) {
 }
 
 TEST_F(RenderProgram, OneResolutionTakesTheNameItself) {
-    const Outcome outcome = run("image " + kTruck + " --size 160x90 --frames 1 --show visibility --json --out " + at("v.png"));
+    const Outcome outcome =
+        run("image " + kTruck + " --size 160x90 --frames 1 --show visibility --json --out " + at("v.png"));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
     EXPECT_EQ(nlohmann::json::parse(outcome.text)["renderings"][0]["file"], at("v.png"));
     EXPECT_EQ(read_image(at("v.png")).channels, 1);
@@ -126,7 +129,9 @@ TEST_F(RenderProgram, OneResolutionTakesTheNameItself) {
 // No two runs differ but in their times.
 TEST_F(RenderProgram, PicturesAreReproducible) {
     for (const std::string name : {"a.png", "b.png"}) {
-        ASSERT_EQ(run("image " + kTruck + " --resolution 512 --size 160x90 --frames 1 --out " + at(name)).exit_code, 0);
+        ASSERT_EQ(
+            run("image " + kTruck + " --resolution 512 --size 160x90 --frames 1 --out " + at(name)).exit_code,
+            0);
     }
     EXPECT_EQ(read_image(at("a.png")).pixels, read_image(at("b.png")).pixels);
 }
@@ -159,8 +164,8 @@ TEST_F(RenderProgram, ALawOfAnotherKernelMustBeConvertedKnowingly) {
         read_file(std::string(STAIRSTEP_SOURCE_DIR) + "/analysis/law/kreuzer2017.json"));
     law["kernel"] = "disk";
     write_json(at("disk.json"), law);
-    const std::string image =
-        "image " + kTruck + " --size 64x36 --frames 1 --json --law " + at("disk.json") + " --out " + at("x.png");
+    const std::string image = "image " + kTruck + " --size 64x36 --frames 1 --json --law " + at("disk.json") +
+                              " --out " + at("x.png");
     expect_error(image, 2, "--convert-kernel");
     const Outcome outcome = run(image + " --convert-kernel");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
@@ -171,8 +176,9 @@ TEST_F(RenderProgram, ALawOfAnotherKernelMustBeConvertedKnowingly) {
 
 TEST_F(RenderProgram, WhatCantBeWrittenLeavesNothing) {
     expect_error("image " + kTruck + " --out /nonexistent/x.png", 1, "/nonexistent");
-    expect_error("image " + kTruck + " --size 64x36 --frames 1 --out " + at("x.png") + " --stats /nonexistent/s.json", 1,
-                 "/nonexistent");
+    expect_error(
+        "image " + kTruck + " --size 64x36 --frames 1 --out " + at("x.png") + " --stats /nonexistent/s.json",
+        1, "/nonexistent");
     EXPECT_EQ(file_count(), 0u);
 }
 

@@ -21,19 +21,20 @@ class Shadow : public testing::Test {
     std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
 };
 
-/// A light straight above: light x is world x, light y is world −z. Casters at y = 2, the ground at y = 0, beyond the
-/// far end of the map; the camera looks down from between.
+/// A light straight above: light x is world x, light y is world −z. Casters at y = 2, the ground at y = 0,
+/// beyond the far end of the map; the camera looks down from between.
 const Direction kStraightDown{0, 90};
 const Camera kCamera = made::camera_down({0, 1.5, 0});
 
 /// A map over [−extent/2, extent/2] along each axis, made by hand so that its texel grid is known.
 ShadowMapShape shape_over(double texel, int width, int height) {
     const glm::dvec2 half = glm::dvec2(width, height) * texel / 2.0;
-    return {{basis_towards(kStraightDown), -half, half, -2.1, -1.9}, width, height, ShadowMapShape::Limit::fixed};
+    return {
+        {basis_towards(kStraightDown), -half, half, -2.1, -1.9}, width, height, ShadowMapShape::Limit::fixed};
 }
 
-/// Visibility of the box by adding up, texel by texel, what casts no shadow: `covers` says whether the caster covers
-/// a point of the light plane.
+/// Visibility of the box by adding up, texel by texel, what casts no shadow: `covers` says whether the caster
+/// covers a point of the light plane.
 template <typename Covers>
 double box_over_texels(const ShadowMapShape& shape, double radius, const glm::dvec2& p, Covers covers) {
     const glm::dvec2 texel = shape.texel();
@@ -70,8 +71,8 @@ void expect_everywhere(const std::vector<float>& drawn, double tolerance, Expect
     EXPECT_GT(lighter, 500) << "the picture should show the light";
 }
 
-// The stimuli's stair is a silhouette at 45° whose line goes through the middle of treads: texel centres lie at whole
-// texels along x (an odd count, centred) and at halves along y (an even one).
+// The stimuli's stair is a silhouette at 45° whose line goes through the middle of treads: texel centres lie
+// at whole texels along x (an odd count, centred) and at halves along y (an even one).
 TEST_F(Shadow, ExactPcfIsTheStimulisStair) {
     const Scene scene =
         made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
@@ -81,7 +82,8 @@ TEST_F(Shadow, ExactPcfIsTheStimulisStair) {
             const std::vector<float> drawn =
                 made::draw_visibility(scene, kCamera, "pcf", {radius, FilterMode::exact, 0},
                                       shape_over(texel, 101, 100), kWidth, kHeight);
-            SCOPED_TRACE(testing::Message() << "texel " << texel << ", radius " << radius_texels << " texels");
+            SCOPED_TRACE(testing::Message()
+                         << "texel " << texel << ", radius " << radius_texels << " texels");
             // A filter below a texel blurs steps over so few pixels that their rounding in float shows more.
             const double tolerance = radius_texels < 1 ? 4 * kLevel : kLevel;
             expect_everywhere(drawn, tolerance, [&](const glm::dvec2& p) {
@@ -98,9 +100,11 @@ TEST_F(Shadow, ExactPcfIsTheBoxOverTheTexelsOfAnyCaster) {
         bool (*covers)(const glm::dvec2&);
     };
     const std::vector<Case> cases{
-        {"rectangle", {{-0.413f, 2, -0.287f}, {-0.413f, 2, 0.287f}, {0.413f, 2, 0.287f}, {0.413f, 2, -0.287f}},
+        {"rectangle",
+         {{-0.413f, 2, -0.287f}, {-0.413f, 2, 0.287f}, {0.413f, 2, 0.287f}, {0.413f, 2, -0.287f}},
          [](const glm::dvec2& p) { return std::abs(p.x) <= 0.413 && std::abs(p.y) <= 0.287; }},
-        {"diamond", {{-0.513f, 2, 0}, {0, 2, 0.513f}, {0.513f, 2, 0}, {0, 2, -0.513f}},
+        {"diamond",
+         {{-0.513f, 2, 0}, {0, 2, 0.513f}, {0.513f, 2, 0}, {0, 2, -0.513f}},
          [](const glm::dvec2& p) { return std::abs(p.x) + std::abs(p.y) <= 0.513; }}};
     for (const Case& shape_case : cases) {
         SCOPED_TRACE(shape_case.name);
@@ -149,8 +153,8 @@ TEST_F(Shadow, SampledPcfIsWithoutBias) {
 TEST_F(Shadow, HardIsOneTexel) {
     const Scene scene =
         made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
-    const std::vector<float> drawn = made::draw_visibility(scene, kCamera, "hard", {1, FilterMode::automatic, 0},
-                                                           shape_over(0.11, 101, 100), kWidth, kHeight);
+    const std::vector<float> drawn = made::draw_visibility(
+        scene, kCamera, "hard", {1, FilterMode::automatic, 0}, shape_over(0.11, 101, 100), kWidth, kHeight);
     int wrong = 0;
     for (int row = 0; row < kHeight; ++row) {
         for (int column = 0; column < kWidth; ++column) {
@@ -160,6 +164,21 @@ TEST_F(Shadow, HardIsOneTexel) {
         }
     }
     EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(Shadow, ABoxFarBelowATexelIsHard) {
+    const Scene scene =
+        made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
+    const ShadowMapShape shape = shape_over(0.11, 101, 100);
+    const auto draw = [&](const std::string& technique) {
+        return made::draw_visibility(scene, kCamera, technique, {1e-9, FilterMode::automatic, 0}, shape,
+                                     kWidth, kHeight);
+    };
+    const std::vector<float> hard = draw("hard");
+    const std::vector<float> pcf = draw("pcf");
+    int differing = 0;
+    for (size_t i = 0; i < hard.size(); ++i) differing += std::abs(hard[i] - pcf[i]) > kLevel;
+    EXPECT_LT(differing, 20) << "only pixels right on a step may";
 }
 
 TEST_F(Shadow, NoneIsLit) {
@@ -175,27 +194,32 @@ TEST_F(Shadow, ASphereHasNoAcne) {
     const Scene scene = made::scene_of({made::sphere(1, 48)});
     const Direction light{40, 35};
     const LightFrustum frustum = fit_light_frustum(scene, light, 0.1);
-    // From where the light comes from, every facet that can be seen faces it, and a convex body never shades itself.
+    // From where the light comes from, every facet that can be seen faces it, and a convex body never shades
+    // itself.
     const Camera camera = made::camera_at(4.0 * basis_towards(light).back, light);
     for (const int side : {32, 300, 2048}) {
         for (const std::string technique : {"hard", "pcf"}) {
-            const std::vector<float> drawn = made::draw_visibility(
-                scene, camera, technique, {0.1, FilterMode::automatic, 25}, map_of_size(frustum, side), kWidth, kHeight);
-            const auto dark = std::count_if(drawn.begin(), drawn.end(), [](float v) { return v < 1 - kLevel; });
+            const std::vector<float> drawn =
+                made::draw_visibility(scene, camera, technique, {0.1, FilterMode::automatic, 25},
+                                      map_of_size(frustum, side), kWidth, kHeight);
+            const auto dark =
+                std::count_if(drawn.begin(), drawn.end(), [](float v) { return v < 1 - kLevel; });
             EXPECT_EQ(dark, 0) << technique << " " << side;
         }
     }
 }
 
 TEST_F(Shadow, ATiltedPlaneHasNoAcne) {
-    const Scene scene = made::scene_of({made::polygon({{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}}, true)});
+    const Scene scene =
+        made::scene_of({made::polygon({{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}}, true)});
     for (const double elevation : {5.0, 20.0, 60.0, 90.0}) {
         const LightFrustum frustum = fit_light_frustum(scene, {33, elevation}, 0.1);
         for (const int side : {64, 1024}) {
-            const std::vector<float> drawn =
-                made::draw_visibility(scene, made::camera_down({0, 3, 0}), "pcf", {0.1, FilterMode::automatic, 25},
-                                      map_of_size(frustum, side), kWidth, kHeight);
-            const auto dark = std::count_if(drawn.begin(), drawn.end(), [](float v) { return v < 1 - kLevel; });
+            const std::vector<float> drawn = made::draw_visibility(
+                scene, made::camera_down({0, 3, 0}), "pcf", {0.1, FilterMode::automatic, 25},
+                map_of_size(frustum, side), kWidth, kHeight);
+            const auto dark =
+                std::count_if(drawn.begin(), drawn.end(), [](float v) { return v < 1 - kLevel; });
             EXPECT_EQ(dark, 0) << "elevation " << elevation << ", side " << side;
         }
     }
@@ -252,7 +276,9 @@ TEST_F(Shadow, ColourFramesDrawWithAndWithoutSamples) {
 
 TEST_F(Shadow, SettingsOutOfRangeAreInputErrors) {
     const ShadowMapShape shape = shape_over(0.01, 101, 100);
-    const auto make = [&](const TechniqueSettings& settings) { technique_named("pcf").make(settings, shape); };
+    const auto make = [&](const TechniqueSettings& settings) {
+        technique_named("pcf").make(settings, shape);
+    };
     EXPECT_THROW(make({0.3, FilterMode::sampled, 24}), InputError);
     EXPECT_THROW(make({0.3, FilterMode::sampled, 0}), InputError);
     EXPECT_THROW(make({0.3, FilterMode::sampled, -25}), InputError);
