@@ -73,7 +73,11 @@ class Collector {
                 // Models made on Windows name their files with backslashes.
                 std::string portable = file;
                 for (char& c : portable) c = c == '\\' ? '/' : c;
-                Image image = read_image(path_.parent_path() / portable);
+                const fs::path image_path = path_.parent_path() / portable;
+                // An empty name stands for the folder, which image readers may read without end.
+                if (!fs::is_regular_file(image_path))
+                    throw InputError(image_path.string(), "isn't a file", "add it");
+                Image image = read_image(image_path);
                 index = result_.scene.textures.size();
                 result_.scene.textures.push_back(std::move(image));
             } catch (const InputError& e) {

@@ -73,6 +73,14 @@ TEST_F(SceneImport, AMissingTextureIsAWarning) {
     EXPECT_FLOAT_EQ(material.base_colour.g, 0.25f);
 }
 
+// Importers hand on what they find: a material may name its texture "" or its own folder.
+TEST_F(SceneImport, AFolderForATextureIsAWarning) {
+    file("m.mtl", "newmtl red\nmap_Kd ./\n");
+    const ImportedScene imported =
+        import_scene(file("m.obj", "mtllib m.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nf 1 2 3\n"));
+    EXPECT_EQ(imported.warnings.size(), 1u);
+}
+
 TEST_F(SceneImport, TheGroundLiesUnderTheCastersAndCastsNothing) {
     Scene scene = import_scene(kTruck).scene;
     const Bounds before = caster_bounds(scene);
