@@ -39,7 +39,8 @@ void set_receiver_uniforms(const gl::Program& program, const ShadowMapShape& sha
     gl::set_uniform(program, "texel_from_world", texel_from_world(shape));
     gl::set_uniform(program, "light_from_world",
                     glm::transpose(glm::mat3(frustum.basis.right, frustum.basis.up, frustum.basis.back)));
-    gl::set_uniform(program, "depth_per_texel", glm::vec2(shape.texel() / (frustum.farthest - frustum.nearest)));
+    gl::set_uniform(program, "depth_per_texel",
+                    glm::vec2(shape.texel() / (frustum.farthest - frustum.nearest)));
     gl::set_uniform(program, "subpixel", std::ldexp(1.0f, -subpixel_bits));
     gl::set_uniform(program, "eye", glm::vec3(eye));
 }
@@ -68,8 +69,10 @@ void draw_lighting_pass(const GpuScene& scene, const FrameView& view, const Shad
     gl::ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, &background.x);
     gl::ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest);
     gl::UseProgram(program.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, scene.facet_normals.id());
     gl::BindTextureUnit(0, shadows.map.depth.id());
     for (const GpuScene::Draw& draw : scene.draws) {
+        gl::set_uniform(program, "first_triangle", static_cast<int>(draw.first_index / 3));
         gl::set_uniform(program, "base_colour", draw.material.base_colour);
         gl::set_uniform(program, "textured", draw.material.texture ? 1 : 0);
         gl::set_uniform(program, "fade_far", draw.fades ? static_cast<float>(4 * view.diagonal) : -1.0f);
@@ -77,8 +80,8 @@ void draw_lighting_pass(const GpuScene& scene, const FrameView& view, const Shad
         draw_elements(draw);
     }
     if (multisampled) {
-        gl::BlitNamedFramebuffer(framebuffer, target.framebuffer.id(), 0, 0, target.width, target.height, 0, 0,
-                                 target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl::BlitNamedFramebuffer(framebuffer, target.framebuffer.id(), 0, 0, target.width, target.height, 0,
+                                 0, target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     }
 }
 
@@ -124,7 +127,8 @@ FrameTarget make_frame_target(Show show, int width, int height, int samples) {
     if (multisampled) {
         target.multisample_colour = gl::make_multisample_texture(format, width, height, samples);
         target.depth = gl::make_multisample_texture(GL_DEPTH_COMPONENT32F, width, height, samples);
-        target.multisample_framebuffer = gl::make_framebuffer(target.multisample_colour.id(), target.depth.id());
+        target.multisample_framebuffer =
+            gl::make_framebuffer(target.multisample_colour.id(), target.depth.id());
         target.framebuffer = gl::make_framebuffer(target.colour.id(), 0);
     } else {
         target.depth = gl::make_texture(GL_DEPTH_COMPONENT32F, width, height);
@@ -141,16 +145,17 @@ ShadowRenderer make_shadow_renderer(const TechniqueEntry& entry, const Technique
     renderer.depth_program = gl::make_program("depth", {embedded::depth_vert}, {embedded::depth_frag});
     renderer.colour_program = gl::make_program(name + " lighting", {embedded::lighting_vert},
                                                {embedded::receiver_glsl, shader, embedded::lighting_frag});
-    renderer.visibility_program = gl::make_program(name + " visibility", {embedded::lighting_vert},
-                                                   {embedded::receiver_glsl, shader, embedded::visibility_frag});
+    renderer.visibility_program =
+        gl::make_program(name + " visibility", {embedded::lighting_vert},
+                         {embedded::receiver_glsl, shader, embedded::visibility_frag});
     return renderer;
 }
 
 Image read_colour(const FrameTarget& target) {
     Image image(target.width, target.height, 3);
     gl::PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl::GetTextureImage(target.colour.id(), 0, GL_RGB, GL_UNSIGNED_BYTE, static_cast<GLsizei>(image.pixels.size()),
-                        image.pixels.data());
+    gl::GetTextureImage(target.colour.id(), 0, GL_RGB, GL_UNSIGNED_BYTE,
+                        static_cast<GLsizei>(image.pixels.size()), image.pixels.data());
     gl::throw_on_error("reading a picture");
     flip_rows(image.pixels, static_cast<size_t>(target.width) * 3);
     return image;

@@ -59,8 +59,8 @@ struct FrameTime {
     gl::PassTime lighting;
 };
 
-/// Draws one frame. The light is the one that the renderer's map was shaped for. Throws FailureError if GL reports an
-/// error.
+/// Draws one frame. The light is the one that the renderer's map was shaped for. Throws FailureError if GL
+/// reports an error.
 FrameTime draw_frame(const GpuScene& scene, const FrameView& view, const ShadowRenderer& shadows,
                      const FrameTarget& target, gl::PassTimer& timer);
 

@@ -18,16 +18,32 @@ gl::Texture upload_texture(const Image& image) {
     }
     const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
     gl::Texture texture = gl::make_texture(GL_SRGB8_ALPHA8, image.width, image.height, levels);
-    gl::TextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    gl::TextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                          rgba.data());
     gl::GenerateTextureMipmap(texture.id());
     gl::TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     gl::TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return texture;
 }
 
+/// Appends the normal of each of the mesh's triangles.
+void append_facet_normals(const Mesh& mesh, std::vector<float>& normals) {
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a = mesh.vertices[mesh.indices[i]].position;
+        const glm::dvec3 b = mesh.vertices[mesh.indices[i + 1]].position;
+        const glm::dvec3 c = mesh.vertices[mesh.indices[i + 2]].position;
+        const glm::dvec3 normal = glm::cross(b - a, c - a);
+        const double length = glm::length(normal);
+        for (int axis = 0; axis < 3; ++axis) {
+            normals.push_back(length > 0 ? static_cast<float>(normal[axis] / length) : 0);
+        }
+    }
+}
+
 void set_attribute(const gl::VertexArray& array, GLuint index, GLint components, size_t offset) {
     gl::EnableVertexArrayAttrib(array.id(), index);
-    gl::VertexArrayAttribFormat(array.id(), index, components, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+    gl::VertexArrayAttribFormat(array.id(), index, components, GL_FLOAT, GL_FALSE,
+                                static_cast<GLuint>(offset));
     gl::VertexArrayAttribBinding(array.id(), index, 0);
 }
 
@@ -37,16 +53,19 @@ GpuScene upload(const Scene& scene) {
     GpuScene gpu;
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
+    std::vector<float> facet_normals;
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.indices.empty()) continue;
         gpu.draws.push_back({indices.size(), static_cast<GLsizei>(mesh.indices.size()),
                              scene.materials[mesh.material], mesh.casts, mesh.fades});
         const auto base = static_cast<uint32_t>(vertices.size());
         for (const uint32_t index : mesh.indices) indices.push_back(base + index);
+        append_facet_normals(mesh, facet_normals);
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     }
     gpu.vertices = gl::make_buffer(std::as_bytes(std::span(vertices)));
     gpu.indices = gl::make_buffer(std::as_bytes(std::span(indices)));
+    gpu.facet_normals = gl::make_buffer(std::as_bytes(std::span(facet_normals)));
     gpu.vertex_array = gl::make_vertex_array();
     gl::VertexArrayVertexBuffer(gpu.vertex_array.id(), 0, gpu.vertices.id(), 0, sizeof(Vertex));
     gl::VertexArrayElementBuffer(gpu.vertex_array.id(), gpu.indices.id());

@@ -19,6 +19,9 @@ struct GpuScene {
 
     gl::Buffer vertices;
     gl::Buffer indices;
+    /// Three floats a triangle, in the order of `indices`: the unit normal of its plane; 0 where it has no
+    /// area.
+    gl::Buffer facet_normals;
     /// Attributes 0 position, 1 normal, 2 uv.
     gl::VertexArray vertex_array;
     /// As Scene::textures; sRGB with mipmaps.

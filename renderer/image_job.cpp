@@ -13,6 +13,7 @@
 #include "stimuli/io/json_file.h"
 #include "stimuli/io/output_file.h"
 #include "stimuli/io/program.h"
+#include "stimuli/io/progress.h"
 #include "stimuli/number.h"
 
 namespace stairstep {
@@ -59,17 +60,19 @@ std::vector<fs::path> output_files(const ImageJob& job) {
 double box_slope(const Law& law, const ImageJob& job) {
     if (law.kernel == KernelShape::box) return law.slope;
     if (!job.convert_kernel) {
-        throw InputError(job.law, "is a law for the kernel " + std::string(name(law.kernel)) + ", the filter is a box",
+        throw InputError(job.law,
+                         "is a law for the kernel " + std::string(name(law.kernel)) + ", the filter is a box",
                          "use a law for box, or --convert-kernel to convert it by equal variance");
     }
     return slope_for_kernel(law, KernelShape::box);
 }
 
 double filter_radius_of(const ImageJob& job, const Bounds& casters) {
-    const double radius = job.radius.value_or(0.02 * casters.diagonal());
+    const double radius = job.radius.value_or(0.025 * casters.diagonal());
     // Written so that NaN fails. Beyond the model's own size the map would be all margin.
     if (!(radius > 0 && radius <= casters.diagonal())) {
-        throw InputError("--radius " + format_number(radius), "must be above 0 and at most the model's diagonal",
+        throw InputError("--radius " + format_number(radius),
+                         "must be above 0 and at most the model's diagonal",
                          "use one up to " + format_fixed(casters.diagonal(), 3) + " world units");
     }
     return radius;
@@ -100,11 +103,14 @@ double frame_ms(const Rendering& rendering) {
 void time_frames(std::vector<Rendering>& renderings, int frames, const GpuScene& scene, const FrameView& view,
                  const FrameTarget& target) {
     gl::PassTimer timer;
-    for (Rendering& rendering : renderings) draw_frame(scene, view, rendering.renderer, target, timer);
-    for (int i = 0; i < frames; ++i) {
+    Progress progress("timing frames", frames + 1);
+    for (int i = 0; i <= frames; ++i) {
         for (Rendering& rendering : renderings) {
-            rendering.times.push_back(draw_frame(scene, view, rendering.renderer, target, timer));
+            const FrameTime time = draw_frame(scene, view, rendering.renderer, target, timer);
+            // The first frame also compiles and touches memory for the first time.
+            if (i > 0) rendering.times.push_back(time);
         }
+        progress.advance();
     }
 }
 
@@ -112,12 +118,13 @@ Image draw_picture(const GpuScene& scene, const FrameView& view, const ShadowRen
                    const FrameTarget& target) {
     gl::PassTimer timer;
     draw_frame(scene, view, renderer, target, timer);
-    return target.show == Show::colour ? read_colour(target)
-                                       : visibility_picture(read_visibility(target), target.width, target.height);
+    return target.show == Show::colour
+               ? read_colour(target)
+               : visibility_picture(read_visibility(target), target.width, target.height);
 }
 
-std::vector<float> draw_visibility(const GpuScene& scene, const FrameView& view, const ShadowRenderer& renderer,
-                                   const FrameTarget& target) {
+std::vector<float> draw_visibility(const GpuScene& scene, const FrameView& view,
+                                   const ShadowRenderer& renderer, const FrameTarget& target) {
     gl::PassTimer timer;
     draw_frame(scene, view, renderer, target, timer);
     return read_visibility(target);
@@ -129,12 +136,15 @@ Image measure_errors(std::vector<Rendering>& renderings, const ImageJob& job, do
     const FrameTarget target = make_frame_target(Show::visibility, job.width, job.height, 1);
     const ShadowRenderer reference = make_shadow_renderer(
         technique_named("pcf"), {radius, FilterMode::sampled, kTruthTaps}, map_of_size(frustum, kTruthSize));
+    Progress progress("drawing the truth", 2);
     const std::vector<float> truth = draw_visibility(scene, view, reference, target);
     for (Rendering& rendering : renderings) {
         rendering.error = compare_visibility(draw_visibility(scene, view, rendering.renderer, target), truth);
     }
+    progress.advance();
     if (job.show == Show::visibility) return visibility_picture(truth, job.width, job.height);
-    return draw_picture(scene, view, reference, make_frame_target(job.show, job.width, job.height, job.samples));
+    return draw_picture(scene, view, reference,
+                        make_frame_target(job.show, job.width, job.height, job.samples));
 }
 
 ordered_json describe(const Rendering& rendering, const std::string& file, double radius, double pixel,
@@ -153,13 +163,16 @@ ordered_json describe(const Rendering& rendering, const std::string& file, doubl
     json["radius_in_texels"] = radius / texel;
     json["texel_px_on_screen"] = texel_px;
     json["extrapolates"] = texel_px < law_range.first || texel_px > law_range.second;
-    json["filter"] = technique.lookup_kind() == "gathers" ? "exact" : technique.lookups() > 1 ? "sampled" : "none";
+    json["filter"] = technique.lookup_kind() == "gathers" ? "exact"
+                     : technique.lookups() > 1            ? "sampled"
+                                                          : "none";
     json[technique.lookup_kind()] = technique.lookups();
     json["frame_ms"] = frame_ms(rendering);
     json["depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.cpu_ms; });
     json["lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.cpu_ms; });
     json["gpu_depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.gpu_ms; });
-    json["gpu_lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.gpu_ms; });
+    json["gpu_lighting_ms"] =
+        median_of(rendering.times, [](const FrameTime& t) { return t.lighting.gpu_ms; });
     json["file"] = file;
     if (rendering.error) {
         json["visibility_error"] = {{"rmse", rendering.error->rmse},
@@ -194,9 +207,11 @@ ordered_json run_image_job(const ImageJob& job) {
     const FrameView view{framing_camera(points, job.camera, static_cast<double>(job.width) / job.height,
                                         job.camera_distance, 8 * casters.diagonal()),
                          casters.centre(), casters.diagonal()};
-    const double pixel = pixel_footprint(view.camera, distance_along_view(view.camera, casters.centre()), job.height);
+    const double pixel =
+        pixel_footprint(view.camera, distance_along_view(view.camera, casters.centre()), job.height);
     double nearest = INFINITY;
-    for (const glm::dvec3& point : points) nearest = std::min(nearest, distance_along_view(view.camera, point));
+    for (const glm::dvec3& point : points)
+        nearest = std::min(nearest, distance_along_view(view.camera, point));
     const LightFrustum frustum = fit_light_frustum(scene, job.light, radius);
     const SizeRequest sizing{slope, radius, 0,
                              pixel_footprint(view.camera, std::max(nearest, view.camera.near), job.height),
@@ -207,9 +222,13 @@ ordered_json run_image_job(const ImageJob& job) {
     const FrameTarget target = make_frame_target(job.show, job.width, job.height, job.samples);
     std::vector<Rendering> renderings;
     for (const auto& resolution : job.resolutions) {
-        const ShadowMapShape shape = resolution ? map_of_size(frustum, *resolution) : map_by_law(frustum, sizing);
+        const ShadowMapShape shape =
+            resolution ? map_of_size(frustum, *resolution) : map_by_law(frustum, sizing);
         renderings.push_back({label_of(resolution),
-                              make_shadow_renderer(technique, {radius, job.filter, job.taps}, shape), {}, {}, {}});
+                              make_shadow_renderer(technique, {radius, job.filter, job.taps}, shape),
+                              {},
+                              {},
+                              {}});
     }
     time_frames(renderings, job.frames, gpu_scene, view, target);
 
@@ -240,7 +259,8 @@ ordered_json run_image_job(const ImageJob& job) {
         const Image truth = measure_errors(renderings, job, radius, frustum, gpu_scene, view);
         const fs::path file = labelled(job.out, "truth");
         write_png(file, truth);
-        stats["truth"] = {{"file", file.string()}, {"width", kTruthSize}, {"height", kTruthSize}, {"taps", kTruthTaps}};
+        stats["truth"] = {
+            {"file", file.string()}, {"width", kTruthSize}, {"height", kTruthSize}, {"taps", kTruthTaps}};
     }
     stats["renderings"] = ordered_json::array();
     for (size_t i = 0; i < renderings.size(); ++i) {
@@ -269,15 +289,18 @@ ordered_json run_image_job(const ImageJob& job) {
 }
 
 std::string summary_of(const ordered_json& stats) {
-    std::string text = stats["scene"].get<std::string>() + ", " + std::to_string(stats["triangles"].get<size_t>()) +
-                       " triangles, " + stats["technique"].get<std::string>() + " with a radius of " +
-                       format_fixed(stats["radius"], 4) + " (" + format_fixed(stats["radius_px_on_screen"], 1) +
-                       " px on screen), on " + stats["renderer"].get<std::string>() + ".\n";
+    std::string text =
+        stats["scene"].get<std::string>() + ", " + std::to_string(stats["triangles"].get<size_t>()) +
+        " triangles, " + stats["technique"].get<std::string>() + " with a radius of " +
+        format_fixed(stats["radius"], 4) + " (" + format_fixed(stats["radius_px_on_screen"], 1) +
+        " px on screen), on " + stats["renderer"].get<std::string>() + ".\n";
     for (const ordered_json& rendering : stats["renderings"]) {
-        text += "  " + rendering["resolution"].get<std::string>() + ": " + std::to_string(rendering["width"].get<int>()) +
-                "x" + std::to_string(rendering["height"].get<int>()) + " texels of " +
-                format_fixed(rendering["texel_px_on_screen"], 1) + " px, " + format_fixed(rendering["frame_ms"], 1) +
-                " ms a frame (depth " + format_fixed(rendering["depth_ms"], 1) + ", lighting " +
+        text += "  " + rendering["resolution"].get<std::string>() + ": " +
+                std::to_string(rendering["width"].get<int>()) + "x" +
+                std::to_string(rendering["height"].get<int>()) + " texels of " +
+                format_fixed(rendering["texel_px_on_screen"], 1) + " px, " +
+                format_fixed(rendering["frame_ms"], 1) + " ms a frame (depth " +
+                format_fixed(rendering["depth_ms"], 1) + ", lighting " +
                 format_fixed(rendering["lighting_ms"], 1) + ")";
         if (rendering.contains("visibility_error")) {
             text += ", penumbra error " + format_fixed(rendering["visibility_error"]["penumbra_rmse"], 4);
@@ -292,8 +315,9 @@ std::string summary_of(const ordered_json& stats) {
         text += "  " + format_fixed(stats["speedup"], 2) + " times as fast; " +
                 format_fixed(100 * difference["share_over_8_levels"].get<double>(), 2) +
                 " % of the pixels differ by more than 8 levels of 255, at most by " +
-                std::to_string(difference["max_levels"].get<int>()) + "; " + difference["file"].get<std::string>() +
-                " (times " + std::to_string(difference["scale"].get<int>()) + ")\n";
+                std::to_string(difference["max_levels"].get<int>()) + "; " +
+                difference["file"].get<std::string>() + " (times " +
+                std::to_string(difference["scale"].get<int>()) + ")\n";
     }
     return text;
 }

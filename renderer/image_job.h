@@ -1,5 +1,5 @@
-// The job of `stairstep-render image`: one scene, drawn with one technique at one or more shadow-map sizes, timed
-// side by side, compared, and written as pictures with their statistics.
+// The job of `stairstep-render image`: one scene, drawn with one technique at one or more shadow-map sizes,
+// timed side by side, compared, and written as pictures with their statistics.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct ImageJob {
     std::string law = "kreuzer2017";
     /// Whether a law of another kernel than the box may be converted by equal variance.
     bool convert_kernel = false;
-    /// Half-width of the box, world units; by default 2 % of the diagonal of the model's bounds.
+    /// Half-width of the box, world units; by default 2.5 % of the diagonal of the model's bounds.
     std::optional<double> radius;
     FilterMode filter = FilterMode::automatic;
     int taps = 25;
@@ -38,15 +38,28 @@ struct ImageJob {
     Show show = Show::colour;
     /// Whether to draw a converged reference and measure each rendering's visibility against it.
     bool truth = false;
-    /// The picture, PNG. For two or more resolutions their names go before the extension: out-4096.png, out-auto.png,
-    /// and out-difference.png (first against last); so does out-truth.png.
+    /// The picture, PNG. For two or more resolutions their names go before the extension: out-4096.png,
+    /// out-auto.png, and out-difference.png (first against last); so does out-truth.png.
     std::filesystem::path out;
     /// JSON; empty for none.
     std::filesystem::path stats;
 };
 
-/// Does the job with OSMesa and returns the statistics (keys: README). Pictures are written before the
-/// statistics, each whole or not at all. Throws InputError and FailureError.
+/// Does the job with OSMesa and returns the statistics; the pictures are written first, each file whole or
+/// not at all. Throws InputError and FailureError. Keys, lengths in world units unless they say px:
+///   program, scene, triangles (without the ground), technique, radius, radius_px_on_screen, renderer,
+///   image_width, image_height, samples, frames light_extent            what the map must span along its two
+///   axes law                     file, kernel, slope, slope_for_box, kernel_converted, texel_range_px truth
+///   with `truth` only: file, and the reference's width, height and taps renderings              one a
+///   resolution:
+///     resolution, width, height, texels, file
+///     limited_by            fixed, law, screen (texels of a pixel) or largest_size
+///     radius_in_texels, texel_px_on_screen   along the axis with the coarser texels, at the model's centre
+///     extrapolates          whether that texel lies outside the law's range
+///     filter                exact, sampled or none; then `gathers` or `taps`: lookups a pixel
+///     frame_ms, depth_ms, lighting_ms        medians on the CPU's clock; gpu_depth_ms, gpu_lighting_ms the
+///     driver's visibility_error      with `truth` only: the fields of VisibilityError
+///   difference, speedup     for two or more: the first against the last; the fields of PictureDifference
 nlohmann::ordered_json run_image_job(const ImageJob& job);
 
 /// The statistics in a paragraph for people.

@@ -7,9 +7,12 @@ namespace {
 
 ShadowMapShape::Limit limit_of(SizeLimit limit) {
     switch (limit) {
-        case SizeLimit::law: return ShadowMapShape::Limit::law;
-        case SizeLimit::screen: return ShadowMapShape::Limit::screen;
-        case SizeLimit::largest_size: return ShadowMapShape::Limit::largest_size;
+        case SizeLimit::law:
+            return ShadowMapShape::Limit::law;
+        case SizeLimit::screen:
+            return ShadowMapShape::Limit::screen;
+        case SizeLimit::largest_size:
+            return ShadowMapShape::Limit::largest_size;
     }
     return ShadowMapShape::Limit::law;
 }
@@ -18,10 +21,14 @@ ShadowMapShape::Limit limit_of(SizeLimit limit) {
 
 std::string_view name(ShadowMapShape::Limit limit) {
     switch (limit) {
-        case ShadowMapShape::Limit::fixed: return "fixed";
-        case ShadowMapShape::Limit::law: return "law";
-        case ShadowMapShape::Limit::screen: return "screen";
-        case ShadowMapShape::Limit::largest_size: return "largest_size";
+        case ShadowMapShape::Limit::fixed:
+            return "fixed";
+        case ShadowMapShape::Limit::law:
+            return "law";
+        case ShadowMapShape::Limit::screen:
+            return "screen";
+        case ShadowMapShape::Limit::largest_size:
+            return "largest_size";
     }
     return "";
 }
@@ -36,11 +43,11 @@ LightFrustum fit_light_frustum(const Scene& scene, const Direction& light, doubl
             bounds.add({glm::dot(p, basis.right), glm::dot(p, basis.up), -glm::dot(p, basis.back)});
         }
     }
-    // Casters stay clear of both ends, also when all lie in one plane across the light: rounding must not clip the
-    // first, nor make the last as deep as an empty texel.
+    // Casters stay clear of both ends, also when all lie in one plane across the light: rounding must not
+    // clip the first, nor make the last as deep as an empty texel.
     const double clearance = 1e-3 * bounds.diagonal() + 1e-3 * margin;
-    return {basis, glm::dvec2(bounds.low) - margin, glm::dvec2(bounds.high) + margin, bounds.low.z - clearance,
-            bounds.high.z + clearance};
+    return {basis, glm::dvec2(bounds.low) - margin, glm::dvec2(bounds.high) + margin,
+            bounds.low.z - clearance, bounds.high.z + clearance};
 }
 
 ShadowMapShape map_of_size(const LightFrustum& frustum, int side) {

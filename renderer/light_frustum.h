@@ -1,7 +1,7 @@
 // What a directional light's shadow map covers, and how many texels it has.
 //
-// Light space: x along basis.right, y along basis.up, depth away from the light; world units. Texel space: x and y in
-// texels of the map, texel (i, j) covering [i, i + 1) × [j, j + 1), and depth scaled to [0, 1).
+// Light space: x along basis.right, y along basis.up, depth away from the light; world units. Texel space: x
+// and y in texels of the map, texel (i, j) covering [i, i + 1) × [j, j + 1), and depth scaled to [0, 1).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -25,9 +25,10 @@ struct LightFrustum {
     glm::dvec2 extent() const { return high - low; }
 };
 
-/// The tightest box around all casters, widened sideways by `margin` (the filter's radius), so that a filter that
-/// leaves the map finds no caster there: outside, everything is lit. Receivers may lie beyond its far end: their depth
-/// is clamped to it, which leaves every comparison as it was, so they cost the depth no precision.
+/// The tightest box around all casters, widened sideways by `margin` (the filter's radius), so that a filter
+/// that leaves the map finds no caster there: outside, everything is lit. Receivers may lie beyond its far
+/// end: their depth is clamped to it, which leaves every comparison as it was, so they cost the depth no
+/// precision.
 LightFrustum fit_light_frustum(const Scene& scene, const Direction& light, double margin);
 
 /// A map: what it covers, and its texels along each axis.
@@ -48,9 +49,10 @@ std::string_view name(ShadowMapShape::Limit limit);
 /// A map of side × side texels, whatever the frustum's proportions.
 ShadowMapShape map_of_size(const LightFrustum& frustum, int side);
 
-/// The smallest map that the law allows, each axis by its own extent. `request` gives all but the extent. The frustum
-/// is widened by less than a texel so that the texel is exactly r/c (or the smallest texel) on both axes: the filter's
-/// footprint is then the same number of texels, whatever the scene. Throws as shadow_map_size.
+/// The smallest map that the law allows, each axis by its own extent. `request` gives all but the extent. The
+/// frustum is widened by less than a texel so that the texel is exactly r/c (or the smallest texel) on both
+/// axes: the filter's footprint is then the same number of texels, whatever the scene. Throws as
+/// shadow_map_size.
 ShadowMapShape map_by_law(const LightFrustum& frustum, const SizeRequest& request);
 
 /// World space to texel space.

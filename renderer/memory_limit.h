@@ -1,5 +1,6 @@
-// A bound on memory for a stretch of code that reads files others wrote. A 309-byte model may claim 10¹¹ vertices:
-// without a bound, the machine swaps for minutes before the importer gives up; with it, std::bad_alloc comes at once.
+// A bound on memory for a stretch of code that reads files others wrote. A 309-byte model may claim 10¹¹
+// vertices: without a bound, the machine swaps for minutes before the importer gives up; with it,
+// std::bad_alloc comes at once.
 #pragma once
 
 #include <sys/resource.h>

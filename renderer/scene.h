@@ -71,8 +71,8 @@ Bounds caster_bounds(const Scene& scene);
 /// Triangles of all meshes.
 size_t triangle_count(const Scene& scene);
 
-/// Adds a horizontal square at the casters' lowest point, `reach` diagonals of their bounds to each side. It receives
-/// shadows, casts none and fades.
+/// Adds a horizontal square at the casters' lowest point, `reach` diagonals of their bounds to each side. It
+/// receives shadows, casts none and fades.
 void add_ground(Scene& scene, double reach);
 
 }  // namespace stairstep

@@ -1,4 +1,5 @@
-// A shadow map on the GPU: for each texel, the depth of the caster nearest to the light at the texel's centre.
+// A shadow map on the GPU: for each texel, the depth of the caster nearest to the light at the texel's
+// centre.
 #pragma once
 
 #include "renderer/gl/objects.h"
@@ -8,9 +9,9 @@ namespace stairstep {
 
 struct ShadowMap {
     ShadowMapShape shape;
-    /// 32-bit float depth, [0, 1] in texel space; 1 is empty, and so is everything beyond the border. It isn't
-    /// filtered and compares nothing: techniques read raw depths, so that each texel can be compared with the depth
-    /// that the receiver's plane has at this very texel.
+    /// 32-bit float depth, [0, 1] in texel space; 1 is empty, and so is everything beyond the border. It
+    /// isn't filtered and compares nothing: techniques read raw depths, so that each texel can be compared
+    /// with the depth that the receiver's plane has at this very texel.
     gl::Texture depth;
     gl::Framebuffer framebuffer;
 };

@@ -7,17 +7,20 @@
 namespace stairstep {
 namespace {
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) {
+    return degrees * std::numbers::pi / 180;
+}
 
-/// Nearest fit along one axis: at which sideways position and distance the planes of a field of view, of half-tangent
-/// t, touch the points on either side. With s the sideways coordinate and b the one towards the eye, a point is
-/// inside when |s − position| ≤ t·(distance − b).
+/// Nearest fit along one axis: at which sideways position and distance the planes of a field of view, of
+/// half-tangent t, touch the points on either side. With s the sideways coordinate and b the one towards the
+/// eye, a point is inside when |s − position| ≤ t·(distance − b).
 struct AxisFit {
     double position;
     double distance;
 };
 
-AxisFit fit_axis(const std::vector<glm::dvec3>& points, const glm::dvec3& sideways, const glm::dvec3& back, double t) {
+AxisFit fit_axis(const std::vector<glm::dvec3>& points, const glm::dvec3& sideways, const glm::dvec3& back,
+                 double t) {
     double right = -INFINITY;
     double left = -INFINITY;
     for (const glm::dvec3& point : points) {
@@ -60,8 +63,8 @@ Camera framing_camera(const std::vector<glm::dvec3>& points, const Direction& di
     const double along = middle + (std::max(x.distance, y.distance) - middle) * distance_factor;
     camera.eye = x.position * right + y.position * up + along * back;
     camera.far = (along - farthest) + reach;
-    // What lies between the eye and the points is the ground at most, which no one misses; a camera inside the
-    // points, as a small factor makes it, still sees most of them.
+    // What lies between the eye and the points is the ground at most, which no one misses; a camera inside
+    // the points, as a small factor makes it, still sees most of them.
     camera.near = std::max((along - nearest) / 2, camera.far * 1e-4);
     return camera;
 }
@@ -80,10 +83,10 @@ std::vector<glm::dvec3> points_of_interest(const Bounds& casters, const Directio
 
 glm::mat4 clip_from_world(const Camera& camera, double aspect) {
     const auto& [right, up, back] = camera.basis;
-    const glm::dmat4 view(glm::dvec4(right.x, up.x, back.x, 0), glm::dvec4(right.y, up.y, back.y, 0),
-                          glm::dvec4(right.z, up.z, back.z, 0),
-                          glm::dvec4(-glm::dot(right, camera.eye), -glm::dot(up, camera.eye),
-                                     -glm::dot(back, camera.eye), 1));
+    const glm::dmat4 view(
+        glm::dvec4(right.x, up.x, back.x, 0), glm::dvec4(right.y, up.y, back.y, 0),
+        glm::dvec4(right.z, up.z, back.z, 0),
+        glm::dvec4(-glm::dot(right, camera.eye), -glm::dot(up, camera.eye), -glm::dot(back, camera.eye), 1));
     const double zoom = 1 / std::tan(radians(camera.vertical_fov_deg) / 2);
     const double depth = camera.far / (camera.near - camera.far);
     const glm::dmat4 projection(glm::dvec4(zoom / aspect, 0, 0, 0), glm::dvec4(0, zoom, 0, 0),

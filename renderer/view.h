@@ -21,7 +21,8 @@ struct Basis {
     glm::dvec3 back;
 };
 
-/// The basis that looks against `direction`, `right` being horizontal; well defined straight up and down as well.
+/// The basis that looks against `direction`, `right` being horizontal; well defined straight up and down as
+/// well.
 Basis basis_towards(const Direction& direction);
 
 /// A perspective camera, looking along −back.

@@ -4,6 +4,8 @@
 
 namespace stairstep::gl {
 
-std::string renderer_name() { return reinterpret_cast<const char*>(GetString(GL_RENDERER)); }
+std::string renderer_name() {
+    return reinterpret_cast<const char*>(GetString(GL_RENDERER));
+}
 
 }  // namespace stairstep::gl

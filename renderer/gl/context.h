@@ -18,8 +18,8 @@ class Context {
     virtual void make_current() = 0;
 };
 
-/// Software rendering without a window or display (Mesa's OSMesa), already current. It has no picture of its own:
-/// draw into a framebuffer object. Throws FailureError.
+/// Software rendering without a window or display (Mesa's OSMesa), already current. It has no picture of its
+/// own: draw into a framebuffer object. Throws FailureError.
 std::unique_ptr<Context> make_osmesa_context();
 
 /// GL_RENDERER of the current context.

@@ -9,11 +9,16 @@ namespace {
 
 const char* error_name(GLenum error) {
     switch (error) {
-        case GL_INVALID_ENUM: return "invalid enum";
-        case GL_INVALID_VALUE: return "invalid value";
-        case GL_INVALID_OPERATION: return "invalid operation";
-        case GL_INVALID_FRAMEBUFFER_OPERATION: return "invalid framebuffer operation";
-        case GL_OUT_OF_MEMORY: return "out of memory";
+        case GL_INVALID_ENUM:
+            return "invalid enum";
+        case GL_INVALID_VALUE:
+            return "invalid value";
+        case GL_INVALID_OPERATION:
+            return "invalid operation";
+        case GL_INVALID_FRAMEBUFFER_OPERATION:
+            return "invalid framebuffer operation";
+        case GL_OUT_OF_MEMORY:
+            return "out of memory";
     }
     return "unknown error";
 }
@@ -28,7 +33,8 @@ void load_functions(const std::function<FunctionPointer(const char*)>& address_o
     const auto load = [&](const char* name) {
         const FunctionPointer address = address_of(name);
         if (!address) {
-            throw FailureError("OpenGL", std::string("this driver has no ") + name, "use one with OpenGL 4.5");
+            throw FailureError("OpenGL", std::string("this driver has no ") + name,
+                               "use one with OpenGL 4.5");
         }
         return address;
     };
@@ -40,11 +46,12 @@ void load_functions(const std::function<FunctionPointer(const char*)>& address_o
 void throw_on_error(const char* during) {
     const GLenum error = GetError();
     if (error == GL_NO_ERROR) return;
-    // A driver may keep several flags; leave none behind to be blamed on the next caller. A lost context reports
-    // errors for ever, hence the bound.
+    // A driver may keep several flags; leave none behind to be blamed on the next caller. A lost context
+    // reports errors for ever, hence the bound.
     for (int i = 0; i < 16 && GetError() != GL_NO_ERROR; ++i) {
     }
-    const char* remedy = error == GL_OUT_OF_MEMORY ? "use a smaller picture or shadow map" : "please report this";
+    const char* remedy =
+        error == GL_OUT_OF_MEMORY ? "use a smaller picture or shadow map" : "please report this";
     throw FailureError("OpenGL", std::string(error_name(error)) + " during " + during, remedy);
 }
 

@@ -1,4 +1,5 @@
-// The OpenGL functions that Stairstep calls, as a table filled at run time: gl::BindTexture(…) is glBindTexture.
+// The OpenGL functions that Stairstep calls, as a table filled at run time: gl::BindTexture(…) is
+// glBindTexture.
 //
 // A new call is one more word in the list. Each entry has the exact type that glcorearb.h declares.
 #pragma once
@@ -8,21 +9,29 @@
 
 #include <functional>
 
-#define STAIRSTEP_GL_FUNCTIONS(X)                                                                             \
-    X(AttachShader) X(BeginQuery) X(BindBufferBase) X(BindFramebuffer) X(BindTextureUnit) X(BindVertexArray)  \
-    X(BlitNamedFramebuffer) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) X(ClipControl)          \
-    X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateQueries)                 \
-    X(CreateShader) X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers)            \
-    X(DeleteProgram) X(DeleteQueries) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(Disable)      \
-    X(DrawElements) X(Enable) X(EnableVertexArrayAttrib) X(EndQuery) X(Finish) X(GenerateTextureMipmap)       \
-    X(GetError) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetQueryObjectui64v)                    \
-    X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage) X(GetUniformLocation) X(LinkProgram)   \
-    X(NamedBufferStorage) X(NamedFramebufferDrawBuffer) X(NamedFramebufferReadBuffer)                         \
-    X(NamedFramebufferTexture) X(PixelStorei) X(ProgramUniform1f) X(ProgramUniform1i) X(ProgramUniform2f)     \
-    X(ProgramUniform3f) X(ProgramUniformMatrix3fv) X(ProgramUniformMatrix4fv) X(ShaderSource)                 \
-    X(TextureParameterfv) X(TextureParameteri) X(TextureStorage2D) X(TextureStorage2DMultisample)             \
-    X(TextureSubImage2D) X(UseProgram) X(VertexArrayAttribBinding) X(VertexArrayAttribFormat)                 \
-    X(VertexArrayElementBuffer) X(VertexArrayVertexBuffer) X(Viewport)
+#define STAIRSTEP_GL_FUNCTIONS(X)                                                                            \
+    X(AttachShader)                                                                                          \
+    X(BeginQuery) X(BindBufferBase) X(BindFramebuffer) X(BindTextureUnit) X(BindVertexArray)                 \
+        X(BlitNamedFramebuffer) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) X(ClipControl)     \
+            X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateQueries) X(     \
+                CreateShader) X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) \
+                X(DeleteProgram) X(DeleteQueries) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X( \
+                    Disable) X(DrawElements) X(Enable) X(EnableVertexArrayAttrib) X(EndQuery) X(Finish)      \
+                    X(GenerateTextureMipmap) X(GetError) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) \
+                        X(GetQueryObjectui64v) X(GetShaderInfoLog) X(GetShaderiv) X(GetString)               \
+                            X(GetTextureImage) X(GetUniformLocation) X(LinkProgram) X(NamedBufferStorage)    \
+                                X(NamedFramebufferDrawBuffer) X(NamedFramebufferReadBuffer)                  \
+                                    X(NamedFramebufferTexture) X(PixelStorei) X(ProgramUniform1f)            \
+                                        X(ProgramUniform1i) X(ProgramUniform2f) X(ProgramUniform3f)          \
+                                            X(ProgramUniformMatrix3fv) X(ProgramUniformMatrix4fv)            \
+                                                X(ShaderSource) X(TextureParameterfv) X(TextureParameteri)   \
+                                                    X(TextureStorage2D) X(TextureStorage2DMultisample)       \
+                                                        X(TextureSubImage2D) X(UseProgram)                   \
+                                                            X(VertexArrayAttribBinding)                      \
+                                                                X(VertexArrayAttribFormat)                   \
+                                                                    X(VertexArrayElementBuffer)              \
+                                                                        X(VertexArrayVertexBuffer)           \
+                                                                            X(Viewport)
 
 namespace stairstep::gl {
 
@@ -32,12 +41,12 @@ STAIRSTEP_GL_FUNCTIONS(STAIRSTEP_DECLARE)
 
 using FunctionPointer = void (*)();
 
-/// Fills the table through a context's GetProcAddress; the context must be current. All contexts of a process share
-/// the table. Throws FailureError naming the first function that is missing.
+/// Fills the table through a context's GetProcAddress; the context must be current. All contexts of a process
+/// share the table. Throws FailureError naming the first function that is missing.
 void load_functions(const std::function<FunctionPointer(const char*)>& address_of);
 
-/// Throws FailureError if GL has recorded an error since the last call; `during` says what was being done. Reading
-/// errors once a frame is enough to find a wrong call, and cheap.
+/// Throws FailureError if GL has recorded an error since the last call; `during` says what was being done.
+/// Reading errors once a frame is enough to find a wrong call, and cheap.
 void throw_on_error(const char* during);
 
 }  // namespace stairstep::gl

@@ -33,13 +33,27 @@ class Object {
     GLuint id_ = 0;
 };
 
-inline void delete_texture(GLuint id) { DeleteTextures(1, &id); }
-inline void delete_buffer(GLuint id) { DeleteBuffers(1, &id); }
-inline void delete_vertex_array(GLuint id) { DeleteVertexArrays(1, &id); }
-inline void delete_framebuffer(GLuint id) { DeleteFramebuffers(1, &id); }
-inline void delete_query(GLuint id) { DeleteQueries(1, &id); }
-inline void delete_shader(GLuint id) { DeleteShader(id); }
-inline void delete_program(GLuint id) { DeleteProgram(id); }
+inline void delete_texture(GLuint id) {
+    DeleteTextures(1, &id);
+}
+inline void delete_buffer(GLuint id) {
+    DeleteBuffers(1, &id);
+}
+inline void delete_vertex_array(GLuint id) {
+    DeleteVertexArrays(1, &id);
+}
+inline void delete_framebuffer(GLuint id) {
+    DeleteFramebuffers(1, &id);
+}
+inline void delete_query(GLuint id) {
+    DeleteQueries(1, &id);
+}
+inline void delete_shader(GLuint id) {
+    DeleteShader(id);
+}
+inline void delete_program(GLuint id) {
+    DeleteProgram(id);
+}
 
 using Texture = Object<delete_texture>;
 using Buffer = Object<delete_buffer>;

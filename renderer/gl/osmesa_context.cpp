@@ -1,5 +1,5 @@
-// The one file that includes GL/osmesa.h: it drags in GL/gl.h, whose GL 1.x declarations clash with glcorearb.h's,
-// so the function table is reached through the declaration below alone.
+// The one file that includes GL/osmesa.h: it drags in GL/gl.h, whose GL 1.x declarations clash with
+// glcorearb.h's, so the function table is reached through the declaration below alone.
 #include <GL/osmesa.h>
 
 #include <array>
@@ -30,7 +30,8 @@ class OsmesaContext final : public Context {
                                         0};
         context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
         if (!context_) {
-            throw FailureError("OSMesa", "can't make an OpenGL 4.5 core context", "install libosmesa6 22 or newer");
+            throw FailureError("OSMesa", "can't make an OpenGL 4.5 core context",
+                               "install libosmesa6 22 or newer");
         }
     }
 
@@ -38,9 +39,11 @@ class OsmesaContext final : public Context {
 
     void make_current() override {
         if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
-            throw FailureError("OSMesa", "can't make its context current", "check the installation of libosmesa6");
+            throw FailureError("OSMesa", "can't make its context current",
+                               "check the installation of libosmesa6");
         }
-        load_functions([](const char* name) { return reinterpret_cast<FunctionPointer>(OSMesaGetProcAddress(name)); });
+        load_functions(
+            [](const char* name) { return reinterpret_cast<FunctionPointer>(OSMesaGetProcAddress(name)); });
     }
 
   private:
@@ -59,3 +62,13 @@ std::unique_ptr<Context> make_osmesa_context() {
 }
 
 }  // namespace stairstep::gl
+
+#ifdef __SANITIZE_ADDRESS__
+// Mesa keeps a few kilobytes of its own, made with the first context and as shaders compile, until the process ends;
+// its frames are stripped, so the library is all that a suppression can name.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; }
+// Programs' stderr stays the one line that their tests expect.
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
+#endif

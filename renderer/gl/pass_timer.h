@@ -1,5 +1,5 @@
-// How long a pass takes, measured twice: on the CPU's clock from an idle GPU until it is idle again (what a user
-// waits for), and by the driver's own timer query (what the GPU worked).
+// How long a pass takes, measured twice: on the CPU's clock from an idle GPU until it is idle again (what a
+// user waits for), and by the driver's own timer query (what the GPU worked).
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@ namespace stairstep::gl {
 struct PassTime {
     /// Between two glFinish, ms.
     double cpu_ms = 0;
-    /// GL_TIME_ELAPSED, ms.
+    /// GL_TIME_ELAPSED, ms; never above cpu_ms.
     double gpu_ms = 0;
 };
 

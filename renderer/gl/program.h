@@ -1,4 +1,5 @@
-// Shader programs: compiled and linked from text, with the driver's log in the error, and uniforms set by name.
+// Shader programs: compiled and linked from text, with the driver's log in the error, and uniforms set by
+// name.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,8 +11,8 @@
 
 namespace stairstep::gl {
 
-/// The parts of one shader, joined in order; the first starts with #version. The driver numbers each part's lines
-/// from 1 and the part from 0, so the log's "1:12" is line 12 of the second part.
+/// The parts of one shader, joined in order; the first starts with #version. The driver numbers each part's
+/// lines from 1 and the part from 0, so the log's "1:12" is line 12 of the second part.
 using ShaderParts = std::initializer_list<std::string_view>;
 
 /// `name` stands for the program in errors. Throws FailureError with the driver's log.

@@ -22,7 +22,7 @@ const vec3 kSky = vec3(0.34, 0.38, 0.45);
 const vec3 kBounce = vec3(0.20, 0.185, 0.17);
 
 void main() {
-    vec3 facet = geometric_normal(world);
+    vec3 facet = facet_normal(world);
     vec3 normal = normalize(world_normal);
     if (dot(normal, facet) < 0) normal = -normal;
 

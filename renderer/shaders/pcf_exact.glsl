@@ -34,5 +34,6 @@ float visibility(Receiver receiver) {
             lit_area += dot(is_lit, width.xyyx * height.yyxx);
         }
     }
-    return clamp(lit_area / (4 * filter_radius.x * filter_radius.y), 0, 1);
+    vec2 side = end - begin;
+    return clamp(lit_area / (side.x * side.y), 0, 1);
 }

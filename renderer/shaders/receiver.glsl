@@ -25,9 +25,17 @@ uniform vec2 depth_per_texel;
 uniform float subpixel;
 uniform vec3 eye;
 
-// A triangle's own normal, facing the viewer: interpolated normals would tilt the receiver's plane out of the surface.
-vec3 geometric_normal(vec3 world) {
-    vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
+// Three numbers a triangle: its own normal, in the order the index buffer has them.
+layout(std430, binding = 1) readonly buffer FacetNormals { float facet_normals[]; };
+// The first triangle of this draw.
+uniform int first_triangle;
+
+// The normal of the triangle at hand, facing the viewer. Interpolated normals would tilt the receiver's plane out of
+// the surface; so would, slightly, derivatives of the interpolated position, which are off by some 1e-4: enough for
+// acne over a filter of 70 texels.
+vec3 facet_normal(vec3 world) {
+    int at = 3 * (first_triangle + gl_PrimitiveID);
+    vec3 normal = vec3(facet_normals[at], facet_normals[at + 1], facet_normals[at + 2]);
     return dot(normal, eye - world) < 0 ? -normal : normal;
 }
 
@@ -35,14 +43,14 @@ vec3 geometric_normal(vec3 world) {
 Receiver receiver_at(vec3 world, vec3 normal) {
     vec3 texel = (texel_from_world * vec4(world, 1)).xyz;
     vec3 light_normal = light_from_world * normal;
-    // Steeper than 87° (1 : 20) a pixel's derivatives say little about the plane, and next to no light arrives.
+    // Steeper than 87° (1 : 20) half a subpixel moves the plane by more than a texel's side, and no light arrives.
     vec2 slope = light_normal.xy / max(light_normal.z, 0.05) * depth_per_texel;
 
     // The depth stored for a texel is that of the caster's plane, up to where the rasteriser moved its vertices (half
     // a subpixel), and float rounding: some units in the last place of the position in texels, and of the depth.
     float steepness = abs(slope.x) + abs(slope.y);
-    float rounding = 4 * 1.2e-7 * float(textureSize(shadow_map, 0).x);
-    return Receiver(texel.xy, texel.z, slope, steepness * (subpixel + rounding) + 8 * 1.2e-7);
+    float rounding = 16 * 1.2e-7 * float(textureSize(shadow_map, 0).x);
+    return Receiver(texel.xy, texel.z, slope, steepness * (subpixel + rounding) + 16 * 1.2e-7);
 }
 
 // Depth of the receiver's plane at four points of the map, less what rounding may have added: what the depths stored

@@ -7,6 +7,6 @@ uniform vec3 to_light;
 out float shown_visibility;
 
 void main() {
-    vec3 facet = geometric_normal(world);
+    vec3 facet = facet_normal(world);
     shown_visibility = dot(facet, to_light) > 0 ? visibility(receiver_at(world, facet)) : 0;
 }

@@ -1,5 +1,5 @@
-// Percentage-closer filtering (Reeves et al. 1987) with a box: the share of the box around the receiver, in the plane
-// across the light, whose texels leave it lit.
+// Percentage-closer filtering (Reeves et al. 1987) with a box: the share of the box around the receiver, in
+// the plane across the light, whose texels leave it lit.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -13,15 +13,18 @@
 namespace stairstep {
 namespace {
 
+/// A box this narrow, in texels, looks like a single texel; a narrower one's area would drown in rounding.
+constexpr double kNarrowestExact = 1e-3;
 /// Exact filtering beyond this many texels a side takes seconds a frame.
 constexpr double kWidestExact = 128;
 
 class PcfExact final : public ShadowTechnique {
   public:
-    explicit PcfExact(const glm::dvec2& radius_texels) : radius_texels_(radius_texels) {
-        // A box of width 2r touches at most floor(2r) + 2 texels, and no more than 2r + 1 where 2r is whole. The law
-        // gives 2r = 6.94: 8 texels. The slack keeps rounding in 2r from costing a gather.
-        const double width = 2 * std::max(radius_texels.x, radius_texels.y);
+    explicit PcfExact(const glm::dvec2& radius_texels)
+        : radius_texels_(glm::max(radius_texels, glm::dvec2(kNarrowestExact))) {
+        // A box of width 2r touches at most floor(2r) + 2 texels, and no more than 2r + 1 where 2r is whole.
+        // The law gives 2r = 6.94: 8 texels. The slack keeps rounding in 2r from costing a gather.
+        const double width = 2 * std::max(radius_texels_.x, radius_texels_.y);
         gathers_per_side_ = static_cast<int>(std::ceil((width + 1) / 2 - 1e-6));
     }
 
@@ -88,6 +91,8 @@ std::unique_ptr<ShadowTechnique> make_pcf(const TechniqueSettings& settings, con
 
 }  // namespace
 
-TechniqueEntry pcf_technique() { return {"pcf", "percentage-closer filtering with the law's box", make_pcf}; }
+TechniqueEntry pcf_technique() {
+    return {"pcf", "percentage-closer filtering with the law's box", make_pcf};
+}
 
 }  // namespace stairstep

@@ -1,4 +1,5 @@
-// What a shadow technique is: a piece of GLSL that turns a receiver into its visibility, and the numbers it needs.
+// What a shadow technique is: a piece of GLSL that turns a receiver into its visibility, and the numbers it
+// needs.
 //
 // To add one: a file here with its TechniqueEntry, its shader, and a line in techniques.cpp.
 #pragma once
@@ -11,8 +12,8 @@
 
 namespace stairstep {
 
-/// How a filter is evaluated: exact weighs every texel, sampled takes taps; automatic is exact where the filter covers
-/// at most kWidestAutomaticExact texels.
+/// How a filter is evaluated: exact weighs every texel, sampled takes taps; automatic is exact where the
+/// filter covers at most kWidestAutomaticExact texels.
 enum class FilterMode { automatic, exact, sampled };
 
 inline constexpr double kWidestAutomaticExact = 16;
