@@ -18,8 +18,7 @@ namespace {
 constexpr double kDefaultProbability = 0.82;
 
 std::vector<Trial> read_trials(const std::string& path) {
-    std::vector<Trial> trials =
-        path.ends_with(".csv") ? read_trials_csv(path) : TrialStore::open(path).trials();
+    std::vector<Trial> trials = path.ends_with(".csv") ? read_trials_csv(path) : TrialStore::open(path).trials();
     if (trials.empty()) throw InputError(path, "holds no trial", "run the study first");
     return trials;
 }
@@ -45,8 +44,8 @@ void print_warnings(const LawFit& fit) {
 }
 
 void fit_to_file(const std::string& trials_path, double p_threshold, const std::string& out, bool as_json) {
-    const LawFit fit = fit_law(read_trials(trials_path), p_threshold,
-                               std::filesystem::path(trials_path).filename().string());
+    const LawFit fit =
+        fit_law(read_trials(trials_path), p_threshold, std::filesystem::path(trials_path).filename().string());
     print_warnings(fit);
     write_law(out, fit.law);
     if (as_json) {

@@ -15,7 +15,9 @@ namespace stairstep {
 namespace {
 
 /// Two colours that differ for every kind of colour vision (Okabe & Ito 2008).
-const char* colour(Pattern pattern) { return pattern == Pattern::step ? "#0072b2" : "#d55e00"; }
+const char* colour(Pattern pattern) {
+    return pattern == Pattern::step ? "#0072b2" : "#d55e00";
+}
 
 constexpr const char* kStyle =
     "set border 3 lc rgb '#555555'\nset tics nomirror out tc rgb '#333333'\n"
@@ -51,7 +53,8 @@ void plot_condition(Plot& plot, const ConditionLaw& law, const std::vector<Thres
     const std::string rgb = std::string(" lc rgb '") + colour(law.pattern) + "' ";
     auto& line = plot.block(id + "_law");
     for (const double a : {0.0, largest_texel * 1.08}) {
-        line << a << ' ' << law.slope * a << ' ' << law.slope_ci95.first * a << ' ' << law.slope_ci95.second * a << '\n';
+        line << a << ' ' << law.slope * a << ' ' << law.slope_ci95.first * a << ' ' << law.slope_ci95.second * a
+             << '\n';
     }
     std::map<double, std::vector<double>> ln_radii;
     auto& points = plot.block(id + "_observers");
@@ -97,7 +100,8 @@ std::string law_figure(const LawFit& fit) {
            << "set xrange [0:" << largest_texel * 1.08 << "]\nset yrange [0:" << largest_radius * 1.05 << "]\n";
     for (const double contrast : contrasts) {
         script << "set title 'contrast " << format_number(100 * contrast) << " %'\n"
-               << "set ylabel '" << (contrast == *contrasts.begin() ? "filter radius r that hides it, px" : " ") << "'\n";
+               << "set ylabel '" << (contrast == *contrasts.begin() ? "filter radius r that hides it, px" : " ")
+               << "'\n";
         Plot plot;
         double nudge = -largest_texel * 0.008;
         for (const ConditionLaw& law : fit.law.conditions) {
@@ -122,21 +126,19 @@ std::string convergence_figure(const std::vector<Trial>& trials, const LawFit& f
               [](const Track& a, const Track& b) { return a.condition.texel_px < b.condition.texel_px; });
 
     std::ostringstream script;
-    script << kStyle << "set multiplot layout 1," << tracks.size()
-           << "\nunset key\nset xlabel 'trial'\nset xtics 20\n";
+    script << kStyle << "set multiplot layout 1," << tracks.size() << "\nunset key\nset xlabel 'trial'\nset xtics 20\n";
     for (const Track& track : tracks) {
-        const auto threshold =
-            std::find_if(fit.thresholds.begin(), fit.thresholds.end(), [&](const Threshold& t) {
-                return t.observer == track.observer && t.condition == track.condition;
-            });
+        const auto threshold = std::find_if(fit.thresholds.begin(), fit.thresholds.end(), [&](const Threshold& t) {
+            return t.observer == track.observer && t.condition == track.condition;
+        });
         const double radius = threshold->radius_px();
         const double spread = std::exp(1.96 * threshold->ln_radius_sd());
         double largest = radius * spread;
         for (const Trial& trial : track.trials) largest = std::max(largest, trial.radius_px);
 
-        script << "set title 'a = " << format_number(track.condition.texel_px) << " px'\nset xrange [0:"
-               << track.trials.size() + 1 << "]\nset yrange [0:" << largest * 1.08 << "]\nset ylabel '"
-               << (&track == &tracks.front() ? "filter radius shown, px" : " ") << "'\n";
+        script << "set title 'a = " << format_number(track.condition.texel_px)
+               << " px'\nset xrange [0:" << track.trials.size() + 1 << "]\nset yrange [0:" << largest * 1.08
+               << "]\nset ylabel '" << (&track == &tracks.front() ? "filter radius shown, px" : " ") << "'\n";
         Plot plot;
         auto& band = plot.block("band");
         for (const size_t x : {size_t{0}, track.trials.size() + 1}) {

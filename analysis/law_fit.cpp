@@ -25,8 +25,8 @@ struct LawResidual {
     /// Parameters of order 1 for any texel size: ln c, b in texels, p.
     template <typename T>
     bool operator()(const T* ln_slope, const T* intercept_texels, const T* exponent, T* residual) const {
-        const T radius = filter_radius(
-            T(texel_px / scale_px), LawParameters<T>{exp(*ln_slope), *intercept_texels, *exponent});
+        const T radius =
+            filter_radius(T(texel_px / scale_px), LawParameters<T>{exp(*ln_slope), *intercept_texels, *exponent});
         if (!(radius > T(0))) return false;  // no step may lead there
         *residual = (log(radius * scale_px) - ln_radius) / ln_radius_sd;
         return true;
@@ -167,16 +167,17 @@ LawFit fit_law(const std::vector<Trial>& trials, double p_threshold, const std::
             condition[track.observer].push_back(threshold);
             observers.insert(track.observer);
         } else {
-            result.warnings.push_back("observer " + track.observer + ", " + describe({c.pattern, c.contrast, c.kernel}) +
-                                      ", texel " + format_number(c.texel_px) +
-                                      " px: left out: its trials don't bound the threshold");
+            result.warnings.push_back(
+                "observer " + track.observer + ", " + describe({c.pattern, c.contrast, c.kernel}) + ", texel " +
+                format_number(c.texel_px) + " px: left out: its trials don't bound the threshold");
         }
     }
     for (const auto& [key, by_observer] : conditions) {
         if (const auto law = fit_condition(key, by_observer, result.warnings)) result.law.conditions.push_back(*law);
     }
     if (result.law.conditions.empty()) {
-        throw FailureError(source, "no law can be fitted: no condition has two observers with thresholds at two texel sizes",
+        throw FailureError(source,
+                           "no law can be fitted: no condition has two observers with thresholds at two texel sizes",
                            "record more observers, sizes or trials");
     }
 
@@ -184,15 +185,15 @@ LawFit fit_law(const std::vector<Trial>& trials, double p_threshold, const std::
     state_worst_case(law);
     law.threshold_probability = p_threshold;
     const auto [smallest, largest] =
-        std::minmax_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
-            return a.condition.texel_px < b.condition.texel_px;
-        });
+        std::minmax_element(trials.begin(), trials.end(),
+                            [](const Trial& a, const Trial& b) { return a.condition.texel_px < b.condition.texel_px; });
     law.texel_range_px = {smallest->condition.texel_px, largest->condition.texel_px};
     law.observers = static_cast<int>(observers.size());
     law.trials = static_cast<int>(trials.size());
-    law.source = source +
-                 "; thresholds: posterior mean, steepness and lapses summed out; intervals: mean of ln c over observers "
-                 "with Student's t; intercept and exponent likewise; Stairstep " STAIRSTEP_VERSION;
+    law.source =
+        source +
+        "; thresholds: posterior mean, steepness and lapses summed out; intervals: mean of ln c over observers "
+        "with Student's t; intercept and exponent likewise; Stairstep " STAIRSTEP_VERSION;
     return result;
 }
 

@@ -21,11 +21,20 @@ std::string escaped(const std::string& text) {
     std::string html;
     for (const char c : text) {
         switch (c) {
-            case '&': html += "&amp;"; break;
-            case '<': html += "&lt;"; break;
-            case '>': html += "&gt;"; break;
-            case '"': html += "&quot;"; break;
-            default: html += c;
+            case '&':
+                html += "&amp;";
+                break;
+            case '<':
+                html += "&lt;";
+                break;
+            case '>':
+                html += "&gt;";
+                break;
+            case '"':
+                html += "&quot;";
+                break;
+            default:
+                html += c;
         }
     }
     return html;
@@ -57,7 +66,9 @@ std::string base64(const std::string& bytes) {
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](size_t k) { return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u; };
+        const auto byte = [&](size_t k) {
+            return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
+        };
         const unsigned group = byte(0) << 16 | byte(1) << 8 | byte(2);
         text += kAlphabet[group >> 18];
         text += kAlphabet[group >> 12 & 63];
@@ -74,7 +85,9 @@ std::string embedded_png(const fs::path& path, const std::string& description) {
 }
 
 /// gnuplot's XML header has no place inside a page.
-std::string inline_svg(const std::string& svg) { return svg.substr(svg.find("<svg")); }
+std::string inline_svg(const std::string& svg) {
+    return svg.substr(svg.find("<svg"));
+}
 
 std::string in_brackets(const Interval& interval, int decimals) {
     return "[" + format_fixed(interval.first, decimals) + ", " + format_fixed(interval.second, decimals) + "]";
@@ -105,9 +118,12 @@ std::string warnings_list(const std::vector<std::string>& warnings) {
 }
 
 std::string contact_sheet_section(const std::string& path) {
-    return "<h2>What the observers judge</h2>\n<figure>" + embedded_png(path, "contact sheet of filtered shadow edges") +
-           "<figcaption>Filtered shadow edges, at half size. Down a column the texel grows and the steps come back; along "
-           "a row the filter grows and they vanish. They vanish where the radius is the same number of texels, whatever the "
+    return "<h2>What the observers judge</h2>\n<figure>" +
+           embedded_png(path, "contact sheet of filtered shadow edges") +
+           "<figcaption>Filtered shadow edges, at half size. Down a column the texel grows and the steps come back; "
+           "along "
+           "a row the filter grows and they vanish. They vanish where the radius is the same number of texels, "
+           "whatever the "
            "texel's size.</figcaption></figure>\n";
 }
 
@@ -140,17 +156,20 @@ std::string renderings_section(const fs::path& stats_path) {
     }
     std::string difference;
     if (const auto found = stats.find("difference"); found != stats.end() && found->is_object()) {
-        difference = "<figure>" +
-                     embedded_png(stats_path.parent_path() / json_text(*found, "file", source), "difference") +
-                     "<figcaption>Difference between the two, × " + number_or_dash(*found, "scale", 0) +
-                     ". Root mean square " + number_or_dash(*found, "rmse_levels", 2) + " of 255 levels.</figcaption></figure>\n";
+        difference =
+            "<figure>" + embedded_png(stats_path.parent_path() / json_text(*found, "file", source), "difference") +
+            "<figcaption>Difference between the two, × " + number_or_dash(*found, "scale", 0) + ". Root mean square " +
+            number_or_dash(*found, "rmse_levels", 2) + " of 255 levels.</figcaption></figure>\n";
     }
-    return "<h2>What the law saves</h2>\n<p>" + escaped(fs::path(json_text(stats, "scene", source)).filename().string()) +
-           " with percentage-closer filtering of one and the same radius, at the fixed size and at the law's. Times are medians "
-           "from one run, in which the two took turns, on " + escaped(json_text(stats, "renderer", source)) +
-           ".</p>\n<div class=\"pair\">\n" + pictures + "</div>\n" +
+    return "<h2>What the law saves</h2>\n<p>" +
+           escaped(fs::path(json_text(stats, "scene", source)).filename().string()) +
+           " with percentage-closer filtering of one and the same radius, at the fixed size and at the law's. Times "
+           "are medians "
+           "from one run, in which the two took turns, on " +
+           escaped(json_text(stats, "renderer", source)) + ".</p>\n<div class=\"pair\">\n" + pictures + "</div>\n" +
            "<table>\n<tr><th>map</th><th>size</th><th>filter</th><th>frame, ms</th><th>depth pass</th><th>lighting</th>"
-           "<th>error in the penumbra</th></tr>\n" + rows + "</table>\n" + difference;
+           "<th>error in the penumbra</th></tr>\n" +
+           rows + "</table>\n" + difference;
 }
 
 }  // namespace

@@ -42,9 +42,13 @@ std::vector<Track> tracks_of(const std::vector<Trial>& trials) {
     return tracks;
 }
 
-double Threshold::radius_px() const { return condition.texel_px * std::pow(10.0, -log_threshold); }
+double Threshold::radius_px() const {
+    return condition.texel_px * std::pow(10.0, -log_threshold);
+}
 
-double Threshold::ln_radius_sd() const { return log_threshold_sd * std::numbers::ln10; }
+double Threshold::ln_radius_sd() const {
+    return log_threshold_sd * std::numbers::ln10;
+}
 
 Threshold fit_threshold(const Track& track, double p_threshold) {
     assert(!track.trials.empty());
@@ -96,12 +100,9 @@ Threshold fit_threshold(const Track& track, double p_threshold) {
         low_end += marginal[i];
         high_end += marginal[count - 1 - i];
     }
-    return {track.observer,
-            track.condition,
-            mean,
+    return {track.observer, track.condition, mean,
             // The grid resolves no less than the deviation within one of its cells.
-            std::max(std::sqrt(spread / mass), kGrain / std::sqrt(12.0)),
-            static_cast<int>(track.trials.size()),
+            std::max(std::sqrt(spread / mass), kGrain / std::sqrt(12.0)), static_cast<int>(track.trials.size()),
             low_end < kEndShare * mass && high_end < kEndShare * mass};
 }
 

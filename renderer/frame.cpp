@@ -39,8 +39,7 @@ void set_receiver_uniforms(const gl::Program& program, const ShadowMapShape& sha
     gl::set_uniform(program, "texel_from_world", texel_from_world(shape));
     gl::set_uniform(program, "light_from_world",
                     glm::transpose(glm::mat3(frustum.basis.right, frustum.basis.up, frustum.basis.back)));
-    gl::set_uniform(program, "depth_per_texel",
-                    glm::vec2(shape.texel() / (frustum.farthest - frustum.nearest)));
+    gl::set_uniform(program, "depth_per_texel", glm::vec2(shape.texel() / (frustum.farthest - frustum.nearest)));
     gl::set_uniform(program, "subpixel", std::ldexp(1.0f, -subpixel_bits));
     gl::set_uniform(program, "eye", glm::vec3(eye));
 }
@@ -80,8 +79,8 @@ void draw_lighting_pass(const GpuScene& scene, const FrameView& view, const Shad
         draw_elements(draw);
     }
     if (multisampled) {
-        gl::BlitNamedFramebuffer(framebuffer, target.framebuffer.id(), 0, 0, target.width, target.height, 0,
-                                 0, target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl::BlitNamedFramebuffer(framebuffer, target.framebuffer.id(), 0, 0, target.width, target.height, 0, 0,
+                                 target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     }
 }
 
@@ -127,8 +126,7 @@ FrameTarget make_frame_target(Show show, int width, int height, int samples) {
     if (multisampled) {
         target.multisample_colour = gl::make_multisample_texture(format, width, height, samples);
         target.depth = gl::make_multisample_texture(GL_DEPTH_COMPONENT32F, width, height, samples);
-        target.multisample_framebuffer =
-            gl::make_framebuffer(target.multisample_colour.id(), target.depth.id());
+        target.multisample_framebuffer = gl::make_framebuffer(target.multisample_colour.id(), target.depth.id());
         target.framebuffer = gl::make_framebuffer(target.colour.id(), 0);
     } else {
         target.depth = gl::make_texture(GL_DEPTH_COMPONENT32F, width, height);
@@ -145,17 +143,16 @@ ShadowRenderer make_shadow_renderer(const TechniqueEntry& entry, const Technique
     renderer.depth_program = gl::make_program("depth", {embedded::depth_vert}, {embedded::depth_frag});
     renderer.colour_program = gl::make_program(name + " lighting", {embedded::lighting_vert},
                                                {embedded::receiver_glsl, shader, embedded::lighting_frag});
-    renderer.visibility_program =
-        gl::make_program(name + " visibility", {embedded::lighting_vert},
-                         {embedded::receiver_glsl, shader, embedded::visibility_frag});
+    renderer.visibility_program = gl::make_program(name + " visibility", {embedded::lighting_vert},
+                                                   {embedded::receiver_glsl, shader, embedded::visibility_frag});
     return renderer;
 }
 
 Image read_colour(const FrameTarget& target) {
     Image image(target.width, target.height, 3);
     gl::PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl::GetTextureImage(target.colour.id(), 0, GL_RGB, GL_UNSIGNED_BYTE,
-                        static_cast<GLsizei>(image.pixels.size()), image.pixels.data());
+    gl::GetTextureImage(target.colour.id(), 0, GL_RGB, GL_UNSIGNED_BYTE, static_cast<GLsizei>(image.pixels.size()),
+                        image.pixels.data());
     gl::throw_on_error("reading a picture");
     flip_rows(image.pixels, static_cast<size_t>(target.width) * 3);
     return image;
@@ -163,8 +160,8 @@ Image read_colour(const FrameTarget& target) {
 
 std::vector<float> read_visibility(const FrameTarget& target) {
     std::vector<float> values(static_cast<size_t>(target.width) * target.height);
-    gl::GetTextureImage(target.colour.id(), 0, GL_RED, GL_FLOAT,
-                        static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
+    gl::GetTextureImage(target.colour.id(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
+                        values.data());
     gl::throw_on_error("reading visibility");
     flip_rows(values, target.width);
     return values;

@@ -18,8 +18,7 @@ gl::Texture upload_texture(const Image& image) {
     }
     const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
     gl::Texture texture = gl::make_texture(GL_SRGB8_ALPHA8, image.width, image.height, levels);
-    gl::TextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                          rgba.data());
+    gl::TextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
     gl::GenerateTextureMipmap(texture.id());
     gl::TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     gl::TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -42,8 +41,7 @@ void append_facet_normals(const Mesh& mesh, std::vector<float>& normals) {
 
 void set_attribute(const gl::VertexArray& array, GLuint index, GLint components, size_t offset) {
     gl::EnableVertexArrayAttrib(array.id(), index);
-    gl::VertexArrayAttribFormat(array.id(), index, components, GL_FLOAT, GL_FALSE,
-                                static_cast<GLuint>(offset));
+    gl::VertexArrayAttribFormat(array.id(), index, components, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
     gl::VertexArrayAttribBinding(array.id(), index, 0);
 }
 
@@ -56,8 +54,8 @@ GpuScene upload(const Scene& scene) {
     std::vector<float> facet_normals;
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.indices.empty()) continue;
-        gpu.draws.push_back({indices.size(), static_cast<GLsizei>(mesh.indices.size()),
-                             scene.materials[mesh.material], mesh.casts, mesh.fades});
+        gpu.draws.push_back({indices.size(), static_cast<GLsizei>(mesh.indices.size()), scene.materials[mesh.material],
+                             mesh.casts, mesh.fades});
         const auto base = static_cast<uint32_t>(vertices.size());
         for (const uint32_t index : mesh.indices) indices.push_back(base + index);
         append_facet_normals(mesh, facet_normals);

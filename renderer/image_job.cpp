@@ -45,6 +45,11 @@ fs::path labelled(const fs::path& out, const std::string& label) {
     return path.replace_filename(out.stem().string() + "-" + label + out.extension().string());
 }
 
+/// How the statistics name a picture: relative to their own file, so that both can move together.
+std::string name_in_stats(const ImageJob& job, const fs::path& file) {
+    return job.stats.empty() ? file.string() : fs::proximate(file, fs::absolute(job.stats).parent_path()).string();
+}
+
 std::vector<fs::path> output_files(const ImageJob& job) {
     std::vector<fs::path> files;
     for (const auto& resolution : job.resolutions) {
@@ -60,8 +65,7 @@ std::vector<fs::path> output_files(const ImageJob& job) {
 double box_slope(const Law& law, const ImageJob& job) {
     if (law.kernel == KernelShape::box) return law.slope;
     if (!job.convert_kernel) {
-        throw InputError(job.law,
-                         "is a law for the kernel " + std::string(name(law.kernel)) + ", the filter is a box",
+        throw InputError(job.law, "is a law for the kernel " + std::string(name(law.kernel)) + ", the filter is a box",
                          "use a law for box, or --convert-kernel to convert it by equal variance");
     }
     return slope_for_kernel(law, KernelShape::box);
@@ -71,8 +75,7 @@ double filter_radius_of(const ImageJob& job, const Bounds& casters) {
     const double radius = job.radius.value_or(0.025 * casters.diagonal());
     // Written so that NaN fails. Beyond the model's own size the map would be all margin.
     if (!(radius > 0 && radius <= casters.diagonal())) {
-        throw InputError("--radius " + format_number(radius),
-                         "must be above 0 and at most the model's diagonal",
+        throw InputError("--radius " + format_number(radius), "must be above 0 and at most the model's diagonal",
                          "use one up to " + format_fixed(casters.diagonal(), 3) + " world units");
     }
     return radius;
@@ -118,13 +121,12 @@ Image draw_picture(const GpuScene& scene, const FrameView& view, const ShadowRen
                    const FrameTarget& target) {
     gl::PassTimer timer;
     draw_frame(scene, view, renderer, target, timer);
-    return target.show == Show::colour
-               ? read_colour(target)
-               : visibility_picture(read_visibility(target), target.width, target.height);
+    return target.show == Show::colour ? read_colour(target)
+                                       : visibility_picture(read_visibility(target), target.width, target.height);
 }
 
-std::vector<float> draw_visibility(const GpuScene& scene, const FrameView& view,
-                                   const ShadowRenderer& renderer, const FrameTarget& target) {
+std::vector<float> draw_visibility(const GpuScene& scene, const FrameView& view, const ShadowRenderer& renderer,
+                                   const FrameTarget& target) {
     gl::PassTimer timer;
     draw_frame(scene, view, renderer, target, timer);
     return read_visibility(target);
@@ -143,8 +145,7 @@ Image measure_errors(std::vector<Rendering>& renderings, const ImageJob& job, do
     }
     progress.advance();
     if (job.show == Show::visibility) return visibility_picture(truth, job.width, job.height);
-    return draw_picture(scene, view, reference,
-                        make_frame_target(job.show, job.width, job.height, job.samples));
+    return draw_picture(scene, view, reference, make_frame_target(job.show, job.width, job.height, job.samples));
 }
 
 ordered_json describe(const Rendering& rendering, const std::string& file, double radius, double pixel,
@@ -163,16 +164,13 @@ ordered_json describe(const Rendering& rendering, const std::string& file, doubl
     json["radius_in_texels"] = radius / texel;
     json["texel_px_on_screen"] = texel_px;
     json["extrapolates"] = texel_px < law_range.first || texel_px > law_range.second;
-    json["filter"] = technique.lookup_kind() == "gathers" ? "exact"
-                     : technique.lookups() > 1            ? "sampled"
-                                                          : "none";
+    json["filter"] = technique.lookup_kind() == "gathers" ? "exact" : technique.lookups() > 1 ? "sampled" : "none";
     json[technique.lookup_kind()] = technique.lookups();
     json["frame_ms"] = frame_ms(rendering);
     json["depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.cpu_ms; });
     json["lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.cpu_ms; });
     json["gpu_depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.gpu_ms; });
-    json["gpu_lighting_ms"] =
-        median_of(rendering.times, [](const FrameTime& t) { return t.lighting.gpu_ms; });
+    json["gpu_lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.gpu_ms; });
     json["file"] = file;
     if (rendering.error) {
         json["visibility_error"] = {{"rmse", rendering.error->rmse},
@@ -207,11 +205,9 @@ ordered_json run_image_job(const ImageJob& job) {
     const FrameView view{framing_camera(points, job.camera, static_cast<double>(job.width) / job.height,
                                         job.camera_distance, 8 * casters.diagonal()),
                          casters.centre(), casters.diagonal()};
-    const double pixel =
-        pixel_footprint(view.camera, distance_along_view(view.camera, casters.centre()), job.height);
+    const double pixel = pixel_footprint(view.camera, distance_along_view(view.camera, casters.centre()), job.height);
     double nearest = INFINITY;
-    for (const glm::dvec3& point : points)
-        nearest = std::min(nearest, distance_along_view(view.camera, point));
+    for (const glm::dvec3& point : points) nearest = std::min(nearest, distance_along_view(view.camera, point));
     const LightFrustum frustum = fit_light_frustum(scene, job.light, radius);
     const SizeRequest sizing{slope, radius, 0,
                              pixel_footprint(view.camera, std::max(nearest, view.camera.near), job.height),
@@ -222,13 +218,9 @@ ordered_json run_image_job(const ImageJob& job) {
     const FrameTarget target = make_frame_target(job.show, job.width, job.height, job.samples);
     std::vector<Rendering> renderings;
     for (const auto& resolution : job.resolutions) {
-        const ShadowMapShape shape =
-            resolution ? map_of_size(frustum, *resolution) : map_by_law(frustum, sizing);
-        renderings.push_back({label_of(resolution),
-                              make_shadow_renderer(technique, {radius, job.filter, job.taps}, shape),
-                              {},
-                              {},
-                              {}});
+        const ShadowMapShape shape = resolution ? map_of_size(frustum, *resolution) : map_by_law(frustum, sizing);
+        renderings.push_back(
+            {label_of(resolution), make_shadow_renderer(technique, {radius, job.filter, job.taps}, shape), {}, {}, {}});
     }
     time_frames(renderings, job.frames, gpu_scene, view, target);
 
@@ -260,13 +252,13 @@ ordered_json run_image_job(const ImageJob& job) {
         const fs::path file = labelled(job.out, "truth");
         write_png(file, truth);
         stats["truth"] = {
-            {"file", file.string()}, {"width", kTruthSize}, {"height", kTruthSize}, {"taps", kTruthTaps}};
+            {"file", name_in_stats(job, file)}, {"width", kTruthSize}, {"height", kTruthSize}, {"taps", kTruthTaps}};
     }
     stats["renderings"] = ordered_json::array();
     for (size_t i = 0; i < renderings.size(); ++i) {
         write_png(files[i], renderings[i].picture);
         stats["renderings"].push_back(
-            describe(renderings[i], files[i].string(), radius, pixel, law.texel_range_px));
+            describe(renderings[i], name_in_stats(job, files[i]), radius, pixel, law.texel_range_px));
     }
     if (renderings.size() > 1) {
         const Rendering& first = renderings.front();
@@ -276,7 +268,7 @@ ordered_json run_image_job(const ImageJob& job) {
         const fs::path file = labelled(job.out, "difference");
         write_png(file, difference_picture(first.picture, last.picture, scale));
         stats["difference"] = {{"between", {first.label, last.label}},
-                               {"file", file.string()},
+                               {"file", name_in_stats(job, file)},
                                {"scale", scale},
                                {"rmse_levels", difference.rmse_levels},
                                {"max_levels", difference.max_levels},
@@ -289,19 +281,17 @@ ordered_json run_image_job(const ImageJob& job) {
 }
 
 std::string summary_of(const ordered_json& stats) {
-    std::string text =
-        stats["scene"].get<std::string>() + ", " + std::to_string(stats["triangles"].get<size_t>()) +
-        " triangles, " + stats["technique"].get<std::string>() + " with a radius of " +
-        format_fixed(stats["radius"], 4) + " (" + format_fixed(stats["radius_px_on_screen"], 1) +
-        " px on screen), on " + stats["renderer"].get<std::string>() + ".\n";
+    std::string text = stats["scene"].get<std::string>() + ", " + std::to_string(stats["triangles"].get<size_t>()) +
+                       " triangles, " + stats["technique"].get<std::string>() + " with a radius of " +
+                       format_fixed(stats["radius"], 4) + " (" + format_fixed(stats["radius_px_on_screen"], 1) +
+                       " px on screen), on " + stats["renderer"].get<std::string>() + ".\n";
     for (const ordered_json& rendering : stats["renderings"]) {
         text += "  " + rendering["resolution"].get<std::string>() + ": " +
-                std::to_string(rendering["width"].get<int>()) + "x" +
-                std::to_string(rendering["height"].get<int>()) + " texels of " +
-                format_fixed(rendering["texel_px_on_screen"], 1) + " px, " +
+                std::to_string(rendering["width"].get<int>()) + "x" + std::to_string(rendering["height"].get<int>()) +
+                " texels of " + format_fixed(rendering["texel_px_on_screen"], 1) + " px, " +
                 format_fixed(rendering["frame_ms"], 1) + " ms a frame (depth " +
-                format_fixed(rendering["depth_ms"], 1) + ", lighting " +
-                format_fixed(rendering["lighting_ms"], 1) + ")";
+                format_fixed(rendering["depth_ms"], 1) + ", lighting " + format_fixed(rendering["lighting_ms"], 1) +
+                ")";
         if (rendering.contains("visibility_error")) {
             text += ", penumbra error " + format_fixed(rendering["visibility_error"]["penumbra_rmse"], 4);
         }
@@ -315,9 +305,8 @@ std::string summary_of(const ordered_json& stats) {
         text += "  " + format_fixed(stats["speedup"], 2) + " times as fast; " +
                 format_fixed(100 * difference["share_over_8_levels"].get<double>(), 2) +
                 " % of the pixels differ by more than 8 levels of 255, at most by " +
-                std::to_string(difference["max_levels"].get<int>()) + "; " +
-                difference["file"].get<std::string>() + " (times " +
-                std::to_string(difference["scale"].get<int>()) + ")\n";
+                std::to_string(difference["max_levels"].get<int>()) + "; " + difference["file"].get<std::string>() +
+                " (times " + std::to_string(difference["scale"].get<int>()) + ")\n";
     }
     return text;
 }

@@ -46,8 +46,8 @@ LightFrustum fit_light_frustum(const Scene& scene, const Direction& light, doubl
     // Casters stay clear of both ends, also when all lie in one plane across the light: rounding must not
     // clip the first, nor make the last as deep as an empty texel.
     const double clearance = 1e-3 * bounds.diagonal() + 1e-3 * margin;
-    return {basis, glm::dvec2(bounds.low) - margin, glm::dvec2(bounds.high) + margin,
-            bounds.low.z - clearance, bounds.high.z + clearance};
+    return {basis, glm::dvec2(bounds.low) - margin, glm::dvec2(bounds.high) + margin, bounds.low.z - clearance,
+            bounds.high.z + clearance};
 }
 
 ShadowMapShape map_of_size(const LightFrustum& frustum, int side) {

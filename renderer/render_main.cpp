@@ -38,15 +38,15 @@ struct ImageOptions {
 
 void print_size(const SizeOptions& options) {
     const Law law = law_named(options.law);
-    const MapSize size = shadow_map_size(
-        {law.slope, options.radius, options.extent, options.smallest_texel, options.largest_size});
+    const MapSize size =
+        shadow_map_size({law.slope, options.radius, options.extent, options.smallest_texel, options.largest_size});
     if (size.limit == SizeLimit::largest_size) {
         const std::string wanted =
             size.texels_wanted < 1e15 ? format_fixed(size.texels_wanted, 0) : "more than a million billion";
-        throw FailureError("shadow map",
-                           "the law wants " + wanted + " texels a side, --largest-size allows " +
-                               std::to_string(options.largest_size),
-                           "use a larger --radius or --smallest-texel, or a smaller --extent");
+        throw FailureError(
+            "shadow map",
+            "the law wants " + wanted + " texels a side, --largest-size allows " + std::to_string(options.largest_size),
+            "use a larger --radius or --smallest-texel, or a smaller --extent");
     }
     if (options.json) {
         const nlohmann::ordered_json json{{"texels", size.texels},
@@ -62,8 +62,7 @@ void print_size(const SizeOptions& options) {
 /// A whole number in [1, kLargestSide].
 std::optional<int> side_of(const std::string& text) {
     const auto number = parse_number(text);
-    if (!number || !(*number >= 1 && *number <= kLargestSide) || *number != std::floor(*number))
-        return std::nullopt;
+    if (!number || !(*number >= 1 && *number <= kLargestSide) || *number != std::floor(*number)) return std::nullopt;
     return static_cast<int>(*number);
 }
 
@@ -72,8 +71,7 @@ std::vector<std::optional<int>> resolutions_of(const std::string& text) {
     for (const std::string& part : split(text, ',')) {
         const std::optional<int> side = side_of(part);
         if (!side && part != "auto") {
-            throw InputError("--resolution", "\"" + part + "\" is no shadow-map size",
-                             "use auto or 1 to 16384");
+            throw InputError("--resolution", "\"" + part + "\" is no shadow-map size", "use auto or 1 to 16384");
         }
         if (std::find(resolutions.begin(), resolutions.end(), side) != resolutions.end()) {
             throw InputError("--resolution", "\"" + part + "\" is listed twice", "list each size once");
@@ -91,14 +89,12 @@ Direction direction_of(const std::string& flag, const std::string& text, double*
     for (const std::string& part : parts) {
         if (const auto number = parse_number(part)) numbers.push_back(*number);
     }
-    const bool complete =
-        numbers.size() == parts.size() && (numbers.size() == 2 || (factor && numbers.size() == 3));
+    const bool complete = numbers.size() == parts.size() && (numbers.size() == 2 || (factor && numbers.size() == 3));
     if (!complete || std::abs(numbers[0]) > 3600 || !(numbers[1] >= 1 && numbers[1] <= 90) ||
         (numbers.size() == 3 && !(numbers[2] >= 0.05 && numbers[2] <= 20))) {
-        throw InputError(
-            flag, "\"" + text + "\" is no direction",
-            factor ? "write azimuth,elevation[,distance]: degrees, elevation 1 to 90, distance 0.05 to 20"
-                   : "write azimuth,elevation in degrees, elevation 1 to 90");
+        throw InputError(flag, "\"" + text + "\" is no direction",
+                         factor ? "write azimuth,elevation[,distance]: degrees, elevation 1 to 90, distance 0.05 to 20"
+                                : "write azimuth,elevation in degrees, elevation 1 to 90");
     }
     if (numbers.size() == 3) *factor = numbers[2];
     return {numbers[0], numbers[1]};
@@ -123,8 +119,7 @@ ImageJob job_of(const ImageOptions& options) {
     job.light = direction_of("--light", options.light, nullptr);
     job.show = options.show == "visibility" ? Show::visibility : Show::colour;
     if (job.out.extension() != ".png") {
-        throw InputError("--out", "\"" + job.out.string() + "\" is no PNG file name",
-                         "use a name that ends in .png");
+        throw InputError("--out", "\"" + job.out.string() + "\" is no PNG file name", "use a name that ends in .png");
     }
     return job;
 }
@@ -137,15 +132,11 @@ void draw_image(const ImageOptions& options) {
 void add_size_command(CLI::App& app, SizeOptions& options) {
     CLI::App* command = app.add_subcommand("size", "Prints how many texels a side a shadow map needs.");
     command->add_option("--law", options.law, "law.json, or kreuzer2017")->capture_default_str();
-    command->add_option("--radius", options.radius, "half-width of the filter, in the unit of --extent")
-        ->required();
+    command->add_option("--radius", options.radius, "half-width of the filter, in the unit of --extent")->required();
     command->add_option("--extent", options.extent, "what the map spans, as 28 (m)")->required();
-    command
-        ->add_option("--smallest-texel", options.smallest_texel,
-                     "a pixel's footprint: finer texels are of no use")
+    command->add_option("--smallest-texel", options.smallest_texel, "a pixel's footprint: finer texels are of no use")
         ->capture_default_str();
-    command->add_option("--largest-size", options.largest_size, "texels a side that may be had")
-        ->capture_default_str();
+    command->add_option("--largest-size", options.largest_size, "texels a side that may be had")->capture_default_str();
     command->add_flag("--json", options.json, "print JSON");
     command->callback([&options] { print_size(options); });
 }
@@ -154,11 +145,10 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
     ImageJob& job = options.job;
     std::string techniques;
     for (const TechniqueEntry& entry : stairstep::techniques()) {
-        techniques += (techniques.empty() ? "" : ", ") + std::string(entry.name) + " (" +
-                      std::string(entry.summary) + ")";
+        techniques +=
+            (techniques.empty() ? "" : ", ") + std::string(entry.name) + " (" + std::string(entry.summary) + ")";
     }
-    CLI::App* command =
-        app.add_subcommand("image", "Draws a model on a ground plane with shadows, and measures it.");
+    CLI::App* command = app.add_subcommand("image", "Draws a model on a ground plane with shadows, and measures it.");
     command->add_option("scene", job.scene, "a model: glTF, OBJ, Collada and others")->required();
     command->add_option("--technique", job.technique, techniques)->capture_default_str();
     command
@@ -166,8 +156,7 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
                      "shadow-map sizes: auto (the law's) or texels a side; 4096,auto draws and compares both")
         ->capture_default_str();
     command->add_option("--law", job.law, "law.json, or kreuzer2017")->capture_default_str();
-    command->add_flag("--convert-kernel", job.convert_kernel,
-                      "accept a law of another kernel, by equal variance");
+    command->add_flag("--convert-kernel", job.convert_kernel, "accept a law of another kernel, by equal variance");
     command->add_option("--radius", job.radius,
                         "half-width of the filter, world units; default: 2.5 % of the model's diagonal");
     command->add_option("--filter", options.filter, "exact weighs every texel, sampled takes --taps")
@@ -190,8 +179,7 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
     command->add_option("--show", options.show, "the lit scene, or visibility alone")
         ->check(CLI::IsMember({"colour", "visibility"}))
         ->capture_default_str();
-    command->add_flag("--truth", job.truth,
-                      "also draw a converged reference and measure the error against it");
+    command->add_flag("--truth", job.truth, "also draw a converged reference and measure the error against it");
     command->add_option("--out", job.out, "PNG; for several resolutions NAME-4096.png and so on")->required();
     command->add_option("--stats", job.stats, "JSON file for sizes, times and errors");
     command->add_flag("--json", options.json, "print the statistics as JSON");

@@ -23,8 +23,7 @@ void add_ground(Scene& scene, double reach) {
     const glm::dvec3 centre = casters.centre();
     const double half_side = reach * casters.diagonal();
     const auto corner = [&](double x, double z) {
-        return Vertex{
-            glm::vec3(centre.x + x * half_side, casters.low.y, centre.z + z * half_side), {0, 1, 0}, {0, 0}};
+        return Vertex{glm::vec3(centre.x + x * half_side, casters.low.y, centre.z + z * half_side), {0, 1, 0}, {0, 0}};
     };
     Mesh ground;
     ground.vertices = {corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1)};

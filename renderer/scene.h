@@ -60,9 +60,7 @@ struct Bounds {
     glm::dvec3 centre() const { return 0.5 * (low + high); }
     double diagonal() const { return glm::length(high - low); }
     /// Corner i in 0 … 7.
-    glm::dvec3 corner(int i) const {
-        return {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
-    }
+    glm::dvec3 corner(int i) const { return {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; }
 };
 
 /// Bounds of all that casts shadows.

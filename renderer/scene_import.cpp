@@ -33,8 +33,7 @@ class Collector {
         if (result_.scene.materials.empty()) result_.scene.materials.emplace_back();
         if (source_.mRootNode) add_node(*source_.mRootNode, aiMatrix4x4(), 0);
         if (result_.scene.meshes.empty()) reject("has no triangles", "use a model with a surface");
-        if (caster_bounds(result_.scene).diagonal() == 0)
-            reject("has no extent", "use a model with a surface");
+        if (caster_bounds(result_.scene).diagonal() == 0) reject("has no extent", "use a model with a surface");
         return std::move(result_);
     }
 
@@ -50,8 +49,7 @@ class Collector {
             source.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == AI_SUCCESS) {
             const glm::vec3 base(colour.r, colour.g, colour.b);
             // NaN fails the comparison as well.
-            if (glm::all(glm::greaterThanEqual(base, glm::vec3(0))))
-                material.base_colour = glm::min(base, 1.0f);
+            if (glm::all(glm::greaterThanEqual(base, glm::vec3(0)))) material.base_colour = glm::min(base, 1.0f);
         }
         aiString file;
         if (source.GetTexture(aiTextureType_BASE_COLOR, 0, &file) == AI_SUCCESS ||
@@ -75,8 +73,7 @@ class Collector {
                 for (char& c : portable) c = c == '\\' ? '/' : c;
                 const fs::path image_path = path_.parent_path() / portable;
                 // An empty name stands for the folder, which image readers may read without end.
-                if (!fs::is_regular_file(image_path))
-                    throw InputError(image_path.string(), "isn't a file", "add it");
+                if (!fs::is_regular_file(image_path)) throw InputError(image_path.string(), "isn't a file", "add it");
                 Image image = read_image(image_path);
                 index = result_.scene.textures.size();
                 result_.scene.textures.push_back(std::move(image));
@@ -93,12 +90,10 @@ class Collector {
         if (depth > 1000) reject("nests its nodes over 1000 deep", "flatten its hierarchy");
         const aiMatrix4x4 world_from_node = world_from_parent * node.mTransformation;
         for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-            if (node.mMeshes[i] >= source_.mNumMeshes)
-                reject("refers to a mesh it doesn't have", "export it again");
+            if (node.mMeshes[i] >= source_.mNumMeshes) reject("refers to a mesh it doesn't have", "export it again");
             add_mesh(*source_.mMeshes[node.mMeshes[i]], world_from_node);
         }
-        for (unsigned i = 0; i < node.mNumChildren; ++i)
-            add_node(*node.mChildren[i], world_from_node, depth + 1);
+        for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], world_from_node, depth + 1);
     }
 
     void add_mesh(const aiMesh& source, const aiMatrix4x4& world_from_mesh) {
@@ -158,27 +153,23 @@ class Collector {
 }  // namespace
 
 ImportedScene import_scene(const fs::path& path) {
-    if (!fs::is_regular_file(path))
-        throw InputError(path.string(), "isn't a file", "name a model, as truck.gltf");
+    if (!fs::is_regular_file(path)) throw InputError(path.string(), "isn't a file", "name a model, as truck.gltf");
     const MemoryLimit limit(kMostMemory);
     try {
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        const aiScene* source =
-            importer.ReadFile(path.string(), aiProcess_ValidateDataStructure | aiProcess_Triangulate |
-                                                 aiProcess_SortByPType | aiProcess_GenSmoothNormals |
-                                                 aiProcess_JoinIdenticalVertices | aiProcess_FlipUVs);
+        const aiScene* source = importer.ReadFile(
+            path.string(), aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType |
+                               aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices | aiProcess_FlipUVs);
         if (!source) {
-            throw InputError(path.string(),
-                             std::string("can't be read as a model (") + importer.GetErrorString() + ")",
+            throw InputError(path.string(), std::string("can't be read as a model (") + importer.GetErrorString() + ")",
                              "check the file, or convert it to glTF");
         }
         return Collector(*source, path).collect();
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
-        throw InputError(path.string(), "wants over 4 GiB while it is read",
-                         "check the file, or use a smaller model");
+        throw InputError(path.string(), "wants over 4 GiB while it is read", "check the file, or use a smaller model");
     } catch (const std::exception& e) {
         // Assimp's importers are meant to return errors, but some throw.
         throw InputError(path.string(), std::string("can't be read as a model (") + e.what() + ")",

@@ -19,8 +19,7 @@ struct AxisFit {
     double distance;
 };
 
-AxisFit fit_axis(const std::vector<glm::dvec3>& points, const glm::dvec3& sideways, const glm::dvec3& back,
-                 double t) {
+AxisFit fit_axis(const std::vector<glm::dvec3>& points, const glm::dvec3& sideways, const glm::dvec3& back, double t) {
     double right = -INFINITY;
     double left = -INFINITY;
     for (const glm::dvec3& point : points) {

@@ -44,8 +44,7 @@ class Edge {
     Point localised(Point p) const;
 
   private:
-    Edge(Pattern pattern, double texel_px, double slope)
-        : pattern_(pattern), texel_px_(texel_px), slope_(slope) {}
+    Edge(Pattern pattern, double texel_px, double slope) : pattern_(pattern), texel_px_(texel_px), slope_(slope) {}
 
     Pattern pattern_;
     double texel_px_;

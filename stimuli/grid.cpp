@@ -51,8 +51,14 @@ std::vector<Stimulus> stimuli_of(const StimulusGrid& grid) {
             for (const double contrast : grid.contrasts) {
                 for (const double texel_px : grid.texels_px) {
                     for (const double radius_px : grid.radii_px) {
-                        stimuli.push_back({pattern, silhouette, texel_px, {kernel, radius_px}, contrast,
-                                           grid.width_px, grid.height_px, grid.step_reference});
+                        stimuli.push_back({pattern,
+                                           silhouette,
+                                           texel_px,
+                                           {kernel, radius_px},
+                                           contrast,
+                                           grid.width_px,
+                                           grid.height_px,
+                                           grid.step_reference});
                         require_valid(stimuli.back());
                     }
                 }

@@ -10,8 +10,8 @@ namespace {
 
 constexpr size_t kLongestList = 1'000'000;
 
-void append_range(std::vector<double>& values, const std::vector<std::string>& parts,
-                  const std::string& subject, const std::string& text) {
+void append_range(std::vector<double>& values, const std::vector<std::string>& parts, const std::string& subject,
+                  const std::string& text) {
     const auto start = parse_number(parts[0]);
     const auto step = parse_number(parts[1]);
     const auto stop = parse_number(parts[2]);

@@ -52,9 +52,12 @@ void parse_size(const std::string& text, StimulusGrid& grid) {
     const std::vector<std::string> sides = split(text, 'x');
     const auto width = sides.size() == 2 ? parse_number(sides[0]) : std::nullopt;
     const auto height = sides.size() == 2 ? parse_number(sides[1]) : std::nullopt;
-    const auto is_side = [](double side) { return side >= 1 && side <= kLargestSide && side == static_cast<int>(side); };
+    const auto is_side = [](double side) {
+        return side >= 1 && side <= kLargestSide && side == static_cast<int>(side);
+    };
     if (!width || !height || !is_side(*width) || !is_side(*height)) {
-        throw InputError("--size", "\"" + text + "\" is no image size", "write WIDTHxHEIGHT, each 1 to 16384, as 640x480");
+        throw InputError("--size", "\"" + text + "\" is no image size",
+                         "write WIDTHxHEIGHT, each 1 to 16384, as 640x480");
     }
     grid.width_px = static_cast<int>(*width);
     grid.height_px = static_cast<int>(*height);
@@ -69,8 +72,7 @@ StimulusGrid grid_of(const Options& options) {
     grid.texels_px = parse_number_list(options.texels, "--texel");
     grid.radii_px = parse_number_list(options.radii, "--radius");
     grid.contrasts = parse_number_list(options.contrasts, "--contrast");
-    grid.step_reference =
-        options.step_reference == "horizontal" ? StepReference::horizontal : StepReference::sloped;
+    grid.step_reference = options.step_reference == "horizontal" ? StepReference::horizontal : StepReference::sloped;
     parse_size(options.size, grid);
     return grid;
 }
@@ -136,7 +138,8 @@ int main(int argc, char** argv) {
     app.add_option("--texel", options.texels, "texel sizes on screen, px: 5,10 or 5:5:30")->capture_default_str();
     app.add_option("--radius", options.radii, "filter radii, px; 0 is unfiltered")->capture_default_str();
     app.add_option("--kernel", options.kernels, "of box")->capture_default_str();
-    app.add_option("--contrast", options.contrasts, "lit luminance above a black shadow, (0, 1]")->capture_default_str();
+    app.add_option("--contrast", options.contrasts, "lit luminance above a black shadow, (0, 1]")
+        ->capture_default_str();
     app.add_option("--size", options.size, "image size, px")->capture_default_str();
     app.add_option("--reference", options.step_reference, "how the line of a step runs")
         ->check(CLI::IsMember({"sloped", "horizontal"}))
@@ -144,10 +147,14 @@ int main(int argc, char** argv) {
     app.add_option("--source", "how images are made")->check(CLI::IsMember({"exact"}))->default_str("exact");
     app.add_option("--format", "image format")->check(CLI::IsMember({"png"}))->default_str("png");
     app.add_option("--bits", "bits a channel")->check(CLI::IsMember({"8"}))->default_str("8");
-    app.add_option("--transfer", "from luminance to pixel value")->check(CLI::IsMember({"linear"}))->default_str("linear");
+    app.add_option("--transfer", "from luminance to pixel value")
+        ->check(CLI::IsMember({"linear"}))
+        ->default_str("linear");
     app.add_option("--out", options.out, "folder for the images and stimuli.csv")->required();
     app.add_option("--contact-sheet", options.contact_sheet, "also draw all artifacts into this one PNG");
-    app.add_option("--jobs", options.jobs, "threads; 0 is one a core")->check(CLI::Range(0, 1024))->capture_default_str();
+    app.add_option("--jobs", options.jobs, "threads; 0 is one a core")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
     app.callback([&options] { stairstep::generate(options); });
     return stairstep::run_program(app, argc, argv);
 }

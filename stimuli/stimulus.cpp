@@ -16,8 +16,8 @@ void require_valid(const Stimulus& stimulus) {
         if (!holds) throw InputError(subject, problem, remedy);
     };
     const auto is_side = [](int side) { return side >= 1 && side <= kLargestSide; };
-    require(stimulus.texel_px > 0 && std::isfinite(stimulus.texel_px),
-            "texel size " + format_number(stimulus.texel_px), "must be a finite number above 0 px", "use for example 10");
+    require(stimulus.texel_px > 0 && std::isfinite(stimulus.texel_px), "texel size " + format_number(stimulus.texel_px),
+            "must be a finite number above 0 px", "use for example 10");
     require(stimulus.kernel.radius_px >= 0 && std::isfinite(stimulus.kernel.radius_px),
             "filter radius " + format_number(stimulus.kernel.radius_px), "must be a finite number, 0 px or above",
             "use for example 35");
@@ -28,17 +28,20 @@ void require_valid(const Stimulus& stimulus) {
     require(is_side(stimulus.width_px) && is_side(stimulus.height_px),
             "image size " + std::to_string(stimulus.width_px) + "x" + std::to_string(stimulus.height_px),
             "each side must be 1 to 16384 px", "use for example 640x480");
-    require(stimulus.silhouette != Pattern::line, "silhouette line",
-            "a line needs the pattern whose silhouette it is", "use step or stair");
+    require(stimulus.silhouette != Pattern::line, "silhouette line", "a line needs the pattern whose silhouette it is",
+            "use step or stair");
 }
 
 Edge edge_of(const Stimulus& stimulus) {
     const double step_slope =
         stimulus.step_reference == StepReference::sloped ? stimulus.texel_px / stimulus.width_px : 0;
     switch (stimulus.pattern) {
-        case Pattern::step: return Edge::step(stimulus.texel_px);
-        case Pattern::stair: return Edge::stair(stimulus.texel_px);
-        case Pattern::line: break;
+        case Pattern::step:
+            return Edge::step(stimulus.texel_px);
+        case Pattern::stair:
+            return Edge::stair(stimulus.texel_px);
+        case Pattern::line:
+            break;
     }
     return Edge::line(stimulus.silhouette == Pattern::stair ? 1 : step_slope);
 }
@@ -61,12 +64,13 @@ std::vector<double> luminance(const Stimulus& stimulus) {
     return pixels;
 }
 
-int level_8bit(double luminance) { return static_cast<int>(std::floor(luminance * 255 + 0.5)); }
+int level_8bit(double luminance) {
+    return static_cast<int>(std::floor(luminance * 255 + 0.5));
+}
 
 std::string file_stem(const Stimulus& stimulus) {
-    const std::string shape = stimulus.pattern == Pattern::line
-                                  ? "line-of-" + std::string(name(stimulus.silhouette))
-                                  : std::string(name(stimulus.pattern));
+    const std::string shape = stimulus.pattern == Pattern::line ? "line-of-" + std::string(name(stimulus.silhouette))
+                                                                : std::string(name(stimulus.pattern));
     return shape + "_" + std::string(name(stimulus.kernel.shape)) + "_a" + format_number(stimulus.texel_px) + "_r" +
            format_number(stimulus.kernel.radius_px) + "_c" + format_number(stimulus.contrast);
 }

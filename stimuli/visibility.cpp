@@ -25,8 +25,8 @@ double box_visibility(const Edge& edge, double radius_px, Point p) {
 
 double visibility(const Edge& edge, const Kernel& kernel, Point p) {
     if (!(kernel.radius_px >= 0) || !std::isfinite(kernel.radius_px)) {
-        throw InputError("filter radius " + format_number(kernel.radius_px),
-                         "must be a finite number, 0 px or above", "use for example 35");
+        throw InputError("filter radius " + format_number(kernel.radius_px), "must be a finite number, 0 px or above",
+                         "use for example 35");
     }
     if (kernel.shape != KernelShape::box) {
         throw InputError("kernel " + std::string(name(kernel.shape)), "has no exact visibility yet", "use box");

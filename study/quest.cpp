@@ -69,7 +69,9 @@ Quest::Quest(const QuestSettings& settings) : shape_(settings.shape) {
     summarise();
 }
 
-double Quest::suggest() const { return mean() + placement_; }
+double Quest::suggest() const {
+    return mean() + placement_;
+}
 
 void Quest::update(double intensity, bool correct) {
     for (size_t i = 0; i < log_posterior_.size(); ++i) {
@@ -79,8 +81,12 @@ void Quest::update(double intensity, bool correct) {
     summarise();
 }
 
-double Quest::mean() const { return mean_; }
-double Quest::sd() const { return sd_; }
+double Quest::mean() const {
+    return mean_;
+}
+double Quest::sd() const {
+    return sd_;
+}
 
 void Quest::summarise() {
     // Keep the largest logarithm at 0, so that the posterior never underflows as a whole.

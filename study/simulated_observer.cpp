@@ -16,8 +16,8 @@ void require_valid(const SimulatedPopulation& p) {
             "must be a finite number above 0", "use for example 3.47");
     require(p.between_observer_sd >= 0 && p.between_observer_sd <= 2, "between-observer SD", p.between_observer_sd,
             "must lie in 0 to 2 (of ln c)", "use for example 0.16");
-    require(is_valid(p.shape), "lapse rate", p.shape.delta,
-            "leaves no threshold at the probability asked for", "use for example 0.02");
+    require(is_valid(p.shape), "lapse rate", p.shape.delta, "leaves no threshold at the probability asked for",
+            "use for example 0.02");
 }
 
 double median_slope(const SimulatedPopulation& population, Pattern pattern, double contrast) {
@@ -52,7 +52,8 @@ double SimulatedObserver::true_slope(Pattern pattern, double contrast) {
         Random random = traits_.stream(static_cast<uint64_t>(pattern) * 1'000'000 + std::llround(contrast * 1000));
         const double effect = std::sqrt(population_.common_share) * common_effect_ +
                               std::sqrt(1 - population_.common_share) * random.normal();
-        entry->second = median_slope(population_, pattern, contrast) * std::exp(population_.between_observer_sd * effect);
+        entry->second =
+            median_slope(population_, pattern, contrast) * std::exp(population_.between_observer_sd * effect);
     }
     return entry->second;
 }
@@ -60,8 +61,7 @@ double SimulatedObserver::true_slope(Pattern pattern, double contrast) {
 Answer SimulatedObserver::operator()(const Presentation& shown) {
     const double threshold = -std::log10(true_slope(shown.condition.pattern, shown.condition.contrast));
     const double strength = std::log10(shown.condition.texel_px / shown.radius_px);
-    const bool correct =
-        answers_.uniform() < probability_correct(population_.shape, offset_, strength, threshold);
+    const bool correct = answers_.uniform() < probability_correct(population_.shape, offset_, strength, threshold);
     const Judgement other = shown.stimulus == Judgement::artifact ? Judgement::line : Judgement::artifact;
 
     Answer answer;

@@ -40,7 +40,9 @@ std::string study_field(const SQLite::Database& database, const std::string& col
     return query.getColumn(0).getString();
 }
 
-Pattern pattern_from(const std::string& text) { return text == "stair" ? Pattern::stair : Pattern::step; }
+Pattern pattern_from(const std::string& text) {
+    return text == "stair" ? Pattern::stair : Pattern::step;
+}
 
 }  // namespace
 
@@ -120,11 +122,11 @@ int TrialStore::begin_session(const SessionRecord& session) {
 
 void TrialStore::append(const Trial& trial) {
     guarded([&] {
-        SQLite::Statement insert(
-            database_,
-            "INSERT INTO trial (session, round, track, trial, pattern, kernel, contrast, texel_px, suggested_radius_px, "
-            "radius_px, stimulus, response, response_time_s, shown_at_s, dropped_frames) "
-            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        SQLite::Statement insert(database_,
+                                 "INSERT INTO trial (session, round, track, trial, pattern, kernel, contrast, "
+                                 "texel_px, suggested_radius_px, "
+                                 "radius_px, stimulus, response, response_time_s, shown_at_s, dropped_frames) "
+                                 "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         insert.bind(1, trial.session);
         insert.bind(2, trial.round);
         insert.bind(3, trial.track);
@@ -187,7 +189,8 @@ std::vector<Trial> TrialStore::trials() const {
         while (query.executeStep()) {
             const auto text = [&query](int column) { return query.getColumn(column).getString(); };
             const auto kernel = kernel_shape_named(text(6));
-            if (!kernel) throw InputError(path_.string(), "names the kernel \"" + text(6) + "\"", "use a newer Stairstep");
+            if (!kernel)
+                throw InputError(path_.string(), "names the kernel \"" + text(6) + "\"", "use a newer Stairstep");
             Trial trial;
             trial.study = study_name;
             trial.observer = text(0);

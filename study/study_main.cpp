@@ -80,7 +80,8 @@ void print_status(const std::string& database, bool as_json) {
                             {"finished", session.finished}});
     }
     if (as_json) {
-        std::cout << nlohmann::ordered_json{{"study", store.study()}, {"trials", trials.size()}, {"sessions", sessions}}.dump(2)
+        std::cout << nlohmann::ordered_json{{"study", store.study()}, {"trials", trials.size()}, {"sessions", sessions}}
+                         .dump(2)
                   << "\n";
         return;
     }
@@ -101,7 +102,9 @@ int main(int argc, char** argv) {
 
     SimulateOptions simulation;
     auto* simulate_command = app.add_subcommand("simulate", "Run the study with simulated observers.");
-    simulate_command->add_option("--observers", simulation.observers, "how many")->check(CLI::Range(1, 100000))->capture_default_str();
+    simulate_command->add_option("--observers", simulation.observers, "how many")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
     simulate_command->add_option("--seed", simulation.seed, "same seed, same study")->capture_default_str();
     simulate_command->add_option("--db", simulation.database, "the new database")->required();
     simulate_command
@@ -111,7 +114,8 @@ int main(int argc, char** argv) {
     simulate_command
         ->add_option("--between-observer-sd", simulation.population.between_observer_sd, "SD of ln c between observers")
         ->capture_default_str();
-    simulate_command->add_option("--lapse", simulation.population.shape.delta, "share of blind answers")->capture_default_str();
+    simulate_command->add_option("--lapse", simulation.population.shape.delta, "share of blind answers")
+        ->capture_default_str();
     simulate_command->callback([&] { simulate(simulation); });
 
     std::string database;

@@ -2,7 +2,9 @@
 
 namespace stairstep {
 
-std::string_view name(Judgement judgement) { return judgement == Judgement::artifact ? "artifact" : "line"; }
+std::string_view name(Judgement judgement) {
+    return judgement == Judgement::artifact ? "artifact" : "line";
+}
 
 std::optional<Judgement> judgement_named(std::string_view text) {
     if (text == "artifact") return Judgement::artifact;

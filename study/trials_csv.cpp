@@ -99,7 +99,8 @@ class TrialReader {
         if (!column) return 1;
         const double value = table_.number(row, *column);
         if (!(value >= 1 && value <= 1e9) || value != std::floor(value)) {
-            table_.reject(row, *column, "must be a whole number from 1 on", "number sessions, rounds, tracks and trials from 1");
+            table_.reject(row, *column, "must be a whole number from 1 on",
+                          "number sessions, rounds, tracks and trials from 1");
         }
         return static_cast<int>(value);
     }
@@ -117,11 +118,11 @@ std::string trials_csv(const std::vector<Trial>& trials) {
              "dropped_frames"});
     for (const Trial& t : trials) {
         csv.row({t.study, t.observer, std::to_string(t.session), std::to_string(t.round), std::to_string(t.track),
-                 std::to_string(t.trial), std::string(name(t.condition.pattern)),
-                 std::string(name(t.condition.kernel)), format_number(t.condition.contrast),
-                 format_number(t.condition.texel_px), format_number(t.suggested_radius_px), format_number(t.radius_px),
-                 std::string(name(t.stimulus)), std::string(name(t.response)), t.correct() ? "1" : "0",
-                 format_fixed(t.response_time_s, 4), iso_time(t.shown_at_s), std::to_string(t.dropped_frames)});
+                 std::to_string(t.trial), std::string(name(t.condition.pattern)), std::string(name(t.condition.kernel)),
+                 format_number(t.condition.contrast), format_number(t.condition.texel_px),
+                 format_number(t.suggested_radius_px), format_number(t.radius_px), std::string(name(t.stimulus)),
+                 std::string(name(t.response)), t.correct() ? "1" : "0", format_fixed(t.response_time_s, 4),
+                 iso_time(t.shown_at_s), std::to_string(t.dropped_frames)});
     }
     return csv.text();
 }

@@ -102,7 +102,9 @@ Law law_from(const json& object, const std::string& source) {
     return law;
 }
 
-json pair_of(const Interval& interval) { return json::array({interval.first, interval.second}); }
+json pair_of(const Interval& interval) {
+    return json::array({interval.first, interval.second});
+}
 
 ordered_json to_json(const ConditionLaw& law) {
     return {{"pattern", name(law.pattern)},
@@ -121,7 +123,9 @@ ordered_json to_json(const ConditionLaw& law) {
 
 }  // namespace
 
-Law read_law(const std::filesystem::path& path) { return law_from(read_json(path), path.string()); }
+Law read_law(const std::filesystem::path& path) {
+    return law_from(read_json(path), path.string());
+}
 
 Law kreuzer2017_law() {
     return law_from(parse_json(embedded::kreuzer2017_json, "kreuzer2017.json"), "kreuzer2017.json");

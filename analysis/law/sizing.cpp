@@ -38,8 +38,8 @@ MapSize shadow_map_size(const SizeRequest& request) {
     size.limit = request.smallest_texel > request.radius / request.slope ? SizeLimit::screen : SizeLimit::law;
     // texel may underflow to 0 or the quotient overflow: both end at the largest size.
     const double quotient = request.extent / texel;
-    size.texels_wanted = std::isfinite(quotient) ? std::max(1.0, std::ceil(quotient * (1 - 1e-12)))
-                                                 : std::numeric_limits<double>::max();
+    size.texels_wanted =
+        std::isfinite(quotient) ? std::max(1.0, std::ceil(quotient * (1 - 1e-12))) : std::numeric_limits<double>::max();
     if (size.texels_wanted > request.largest_size) {
         size.texels = request.largest_size;
         size.limit = SizeLimit::largest_size;

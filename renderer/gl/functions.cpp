@@ -33,8 +33,7 @@ void load_functions(const std::function<FunctionPointer(const char*)>& address_o
     const auto load = [&](const char* name) {
         const FunctionPointer address = address_of(name);
         if (!address) {
-            throw FailureError("OpenGL", std::string("this driver has no ") + name,
-                               "use one with OpenGL 4.5");
+            throw FailureError("OpenGL", std::string("this driver has no ") + name, "use one with OpenGL 4.5");
         }
         return address;
     };
@@ -50,8 +49,7 @@ void throw_on_error(const char* during) {
     // reports errors for ever, hence the bound.
     for (int i = 0; i < 16 && GetError() != GL_NO_ERROR; ++i) {
     }
-    const char* remedy =
-        error == GL_OUT_OF_MEMORY ? "use a smaller picture or shadow map" : "please report this";
+    const char* remedy = error == GL_OUT_OF_MEMORY ? "use a smaller picture or shadow map" : "please report this";
     throw FailureError("OpenGL", std::string(error_name(error)) + " during " + during, remedy);
 }
 

@@ -30,8 +30,7 @@ class OsmesaContext final : public Context {
                                         0};
         context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
         if (!context_) {
-            throw FailureError("OSMesa", "can't make an OpenGL 4.5 core context",
-                               "install libosmesa6 22 or newer");
+            throw FailureError("OSMesa", "can't make an OpenGL 4.5 core context", "install libosmesa6 22 or newer");
         }
     }
 
@@ -39,11 +38,9 @@ class OsmesaContext final : public Context {
 
     void make_current() override {
         if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
-            throw FailureError("OSMesa", "can't make its context current",
-                               "check the installation of libosmesa6");
+            throw FailureError("OSMesa", "can't make its context current", "check the installation of libosmesa6");
         }
-        load_functions(
-            [](const char* name) { return reinterpret_cast<FunctionPointer>(OSMesaGetProcAddress(name)); });
+        load_functions([](const char* name) { return reinterpret_cast<FunctionPointer>(OSMesaGetProcAddress(name)); });
     }
 
   private:
@@ -62,13 +59,3 @@ std::unique_ptr<Context> make_osmesa_context() {
 }
 
 }  // namespace stairstep::gl
-
-#ifdef __SANITIZE_ADDRESS__
-// Mesa keeps a few kilobytes of its own, made with the first context and as shaders compile, until the process ends;
-// its frames are stripped, so the library is all that a suppression can name.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; }
-// Programs' stderr stays the one line that their tests expect.
-extern "C" const char* __lsan_default_options();
-extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
-#endif

@@ -26,8 +26,7 @@ Shader compile(GLenum stage, const std::string& name, ShaderParts parts) {
         GetShaderInfoLog(shader.id(), static_cast<GLsizei>(log.size()), &length, log.data());
         log.resize(length);
         const char* stage_name = stage == GL_VERTEX_SHADER ? " vertex shader" : " fragment shader";
-        throw FailureError(name + stage_name, "doesn't compile: " + log,
-                           "please report this with your driver's name");
+        throw FailureError(name + stage_name, "doesn't compile: " + log, "please report this with your driver's name");
     }
     return shader;
 }
@@ -52,8 +51,7 @@ Program make_program(const std::string& name, ShaderParts vertex, ShaderParts fr
         GLsizei length = 0;
         GetProgramInfoLog(program.id(), static_cast<GLsizei>(log.size()), &length, log.data());
         log.resize(length);
-        throw FailureError(name + " program", "doesn't link: " + log,
-                           "please report this with your driver's name");
+        throw FailureError(name + " program", "doesn't link: " + log, "please report this with your driver's name");
     }
     return program;
 }

@@ -81,7 +81,8 @@ Image contact_sheet(const std::vector<Stimulus>& stimuli) {
     for (const Pattern pattern : patterns) {
         draw_text(sheet, kGap, top + 24,
                   std::string(name(pattern)) + ", contrast " + format_number(100 * first->contrast) + " %, " +
-                      std::string(name(first->kernel.shape)) + " filter: texel size a down, filter radius r across (px)",
+                      std::string(name(first->kernel.shape)) +
+                      " filter: texel size a down, filter radius r across (px)",
                   18, kInk);
         for (size_t c = 0; c < radii.size(); ++c) {
             const int left = kMarginLeft + static_cast<int>(c) * (kCellWidth + kGap);
@@ -97,7 +98,8 @@ Image contact_sheet(const std::vector<Stimulus>& stimuli) {
                 stimulus.texel_px = texel_px;
                 stimulus.kernel.radius_px = radii[c];
                 draw_cell(sheet, stimulus, left, top);
-                draw_text(sheet, left, top + kCellHeight + 15, format_fixed(radii[c] / texel_px, 1) + " texels", 13, kInk);
+                draw_text(sheet, left, top + kCellHeight + 15, format_fixed(radii[c] / texel_px, 1) + " texels", 13,
+                          kInk);
             }
             top += row_height;
         }

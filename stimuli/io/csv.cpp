@@ -32,7 +32,9 @@ void end_row(int, void* data) {
 
 }  // namespace
 
-CsvTable CsvTable::read(const std::filesystem::path& path) { return parse(read_file(path), path.string()); }
+CsvTable CsvTable::read(const std::filesystem::path& path) {
+    return parse(read_file(path), path.string());
+}
 
 CsvTable CsvTable::parse(const std::string& text, const std::string& source) {
     const auto reject_line = [&source](size_t line, const std::string& problem) {
@@ -48,8 +50,7 @@ CsvTable CsvTable::parse(const std::string& text, const std::string& source) {
     // A byte-order mark is not part of the first name.
     const size_t skip = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
     Rows rows;
-    const size_t parsed =
-        csv_parse(&parser, text.data() + skip, text.size() - skip, end_field, end_row, &rows);
+    const size_t parsed = csv_parse(&parser, text.data() + skip, text.size() - skip, end_field, end_row, &rows);
     if (parsed != text.size() - skip || csv_fini(&parser, end_field, end_row, &rows) != 0) {
         reject_line(rows.complete.size() + 1, "has a stray or unclosed quote");
     }

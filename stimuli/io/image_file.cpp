@@ -26,13 +26,16 @@ void write_png(const std::filesystem::path& path, const Image& image, const Imag
 
 Image read_image(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) throw InputError(path.string(), "doesn't exist", "check the path");
+    // Given a folder, one of OpenImageIO's readers takes memory without end.
+    if (!std::filesystem::is_regular_file(path)) throw InputError(path.string(), "is no file", "name an image file");
     const auto reader = OIIO::ImageInput::open(path.string());
     if (!reader) {
         throw InputError(path.string(), "can't be read as an image (" + OIIO::geterror() + ")", "check the file");
     }
     const OIIO::ImageSpec& spec = reader->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide || spec.height > kLargestSide) {
-        throw InputError(path.string(), "claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " px",
+        throw InputError(path.string(),
+                         "claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " px",
                          "each side must be 1 to 16384 px");
     }
     const int channels = spec.nchannels >= 3 ? 3 : 1;

@@ -23,9 +23,7 @@ struct Image {
           channels(channel_count),
           pixels(static_cast<size_t>(width_px) * height_px * channel_count) {}
 
-    uint8_t* at(int column, int row) {
-        return &pixels[(static_cast<size_t>(row) * width + column) * channels];
-    }
+    uint8_t* at(int column, int row) { return &pixels[(static_cast<size_t>(row) * width + column) * channels]; }
     const uint8_t* at(int column, int row) const {
         return &pixels[(static_cast<size_t>(row) * width + column) * channels];
     }
@@ -37,8 +35,9 @@ using ImageAttributes = std::vector<std::pair<std::string, std::string>>;
 /// Writes a PNG, whole or not at all. Throws FailureError.
 void write_png(const std::filesystem::path& path, const Image& image, const ImageAttributes& attributes = {});
 
-/// Reads an image of any format OpenImageIO knows as 8-bit RGB or grey; alpha and further channels are dropped. Throws InputError for a
-/// missing or damaged file, or one with a side above `kLargestSide`.
+/// Reads an image of any format OpenImageIO knows as 8-bit RGB or grey; alpha and further channels are
+/// dropped. Throws InputError for a missing or damaged file, something that is no file, or a side above
+/// `kLargestSide`.
 Image read_image(const std::filesystem::path& path);
 
 /// Draws a line of text in an image, its baseline's left end at (column, row). `grey` is the text's level.

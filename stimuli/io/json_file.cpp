@@ -26,7 +26,9 @@ namespace {
 
 }  // namespace
 
-nlohmann::json read_json(const std::filesystem::path& path) { return parse_json(read_file(path), path.string()); }
+nlohmann::json read_json(const std::filesystem::path& path) {
+    return parse_json(read_file(path), path.string());
+}
 
 nlohmann::json parse_json(std::string_view text, const std::string& source) {
     auto value = nlohmann::json::parse(text, nullptr, false);
@@ -54,8 +56,7 @@ std::string json_text(const nlohmann::json& object, const std::string& key, cons
     return found->get<std::string>();
 }
 
-std::pair<double, double> json_range(const nlohmann::json& object, const std::string& key,
-                                     const std::string& source) {
+std::pair<double, double> json_range(const nlohmann::json& object, const std::string& key, const std::string& source) {
     const auto found = object.find(key);
     if (found == object.end()) reject_key(source, key, "is missing");
     const bool is_pair = found->is_array() && found->size() == 2 && (*found)[0].is_number() && (*found)[1].is_number();

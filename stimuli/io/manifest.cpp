@@ -6,7 +6,9 @@
 
 namespace stairstep {
 
-std::string image_file_name(const Stimulus& stimulus) { return file_stem(stimulus) + ".png"; }
+std::string image_file_name(const Stimulus& stimulus) {
+    return file_stem(stimulus) + ".png";
+}
 
 void write_manifest(const std::filesystem::path& path, const std::vector<Stimulus>& stimuli) {
     CsvWriter csv;

@@ -46,6 +46,8 @@ int run_program(CLI::App& app, int argc, char** argv) {
     }
 }
 
-void warn(const char* subject, const char* message) { std::fprintf(stderr, "warning: %s: %s\n", subject, message); }
+void warn(const char* subject, const char* message) {
+    std::fprintf(stderr, "warning: %s: %s\n", subject, message);
+}
 
 }  // namespace stairstep

@@ -41,8 +41,8 @@ void Progress::draw(long done) {
     const double rate = done / seconds;
     const int filled = static_cast<int>(std::min(done, total_) * kBarWidth / total_);
     const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
-    std::fprintf(stderr, "\r\033[K%s [%s] %ld/%ld  %.0f/s  %.0f s left", label_.c_str(), bar.c_str(), done, total_, rate,
-                 rate > 0 ? (total_ - done) / rate : 0.0);
+    std::fprintf(stderr, "\r\033[K%s [%s] %ld/%ld  %.0f/s  %.0f s left", label_.c_str(), bar.c_str(), done, total_,
+                 rate, rate > 0 ? (total_ - done) / rate : 0.0);
     drawn_ = true;
 }
 

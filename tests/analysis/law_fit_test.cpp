@@ -40,7 +40,8 @@ TEST(FitObserver, RecoversExactLawsOfAllThreeForms) {
 
 TEST(FitObserver, WeighsThresholdsByTheirPrecision) {
     // In logarithms the best slope is the weighted mean of ln(r/a): a closed form.
-    const std::vector<Threshold> thresholds{threshold_at(5, 20, 0.05), threshold_at(10, 30, 0.2), threshold_at(20, 70, 0.1)};
+    const std::vector<Threshold> thresholds{threshold_at(5, 20, 0.05), threshold_at(10, 30, 0.2),
+                                            threshold_at(20, 70, 0.1)};
     double weights = 0, sum = 0;
     for (const Threshold& t : thresholds) {
         const double w = 1 / (t.ln_radius_sd() * t.ln_radius_sd());
@@ -99,8 +100,8 @@ TEST(FitLaw, TheWorstConditionIsTheLaw) {
 }
 
 TEST(FitLaw, SaysWhatCannotBeEstimated) {
-    EXPECT_THROW(fit_law(study_by_rule(1, {5, 10}, 0), 0.82, "test"), FailureError);   // one observer
-    EXPECT_THROW(fit_law(study_by_rule(5, {10}, 0.1), 0.82, "test"), FailureError);    // one size
+    EXPECT_THROW(fit_law(study_by_rule(1, {5, 10}, 0), 0.82, "test"), FailureError);  // one observer
+    EXPECT_THROW(fit_law(study_by_rule(5, {10}, 0.1), 0.82, "test"), FailureError);   // one size
     std::vector<Trial> all_right = study_by_rule(5, {5, 10}, 0.1);
     for (Trial& trial : all_right) trial.response = trial.stimulus;
     EXPECT_THROW(fit_law(all_right, 0.82, "test"), FailureError);

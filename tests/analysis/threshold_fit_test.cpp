@@ -20,7 +20,8 @@ Track constant_stimuli(double true_threshold, const PsychometricShape& shape, in
         trial.condition = track.condition;
         trial.radius_px = 10 * std::pow(10, -strength);
         trial.stimulus = Judgement::artifact;
-        const bool correct = random.uniform() < probability_correct(shape, threshold_offset(shape), strength, true_threshold);
+        const bool correct =
+            random.uniform() < probability_correct(shape, threshold_offset(shape), strength, true_threshold);
         trial.response = correct ? Judgement::artifact : Judgement::line;
         track.trials.push_back(trial);
     }

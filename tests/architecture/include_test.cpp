@@ -59,7 +59,7 @@ std::vector<Include> includes_of(const fs::path& root) {
 }
 
 bool is_allowed(const Include& include) {
-    if (include.file.ends_with("_main.cpp")) return true;  // where parts are put together
+    if (include.file.ends_with("_main.cpp")) return true;        // where parts are put together
     if (include.included.starts_with("embedded/")) return true;  // generated from files of the module itself
     const std::string from = module_of(include.file);
     const std::string to = module_of(include.included);
@@ -95,7 +95,8 @@ TEST(Includes, CoreOfStimuliNeedsNoLibrary) {
             continue;
         }
         const std::string text = read_file(entry.path());
-        for (const char* header : {"<fstream>", "<filesystem>", "<cstdio>", "<GL/", "<OpenImageIO/", "<nlohmann/", "<CLI/"}) {
+        for (const char* header :
+             {"<fstream>", "<filesystem>", "<cstdio>", "<GL/", "<OpenImageIO/", "<nlohmann/", "<CLI/"}) {
             EXPECT_EQ(text.find(std::string("#include ") + header), std::string::npos) << entry.path() << header;
         }
     }

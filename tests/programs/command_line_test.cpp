@@ -74,28 +74,27 @@ TEST_P(BadInput, GetsOneErrorLineAndLeavesNothing) {
     EXPECT_EQ(listing(folder.path()), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Stimuli, BadInput,
-    testing::Values(BadCommand{"stairstep-stimuli", 2, "--out"}, BadCommand{"stairstep-stimuli --out x --blob", 2, "--blob"},
-                    BadCommand{"stairstep-stimuli --out x --texel 0", 2, "texel size 0"},
-                    BadCommand{"stairstep-stimuli --out x --texel -5", 2, "texel size -5"},
-                    BadCommand{"stairstep-stimuli --out x --texel nan", 2, "--texel"},
-                    BadCommand{"stairstep-stimuli --out x --radius -1", 2, "filter radius -1"},
-                    BadCommand{"stairstep-stimuli --out x --radius 0:1e-9:80", 2, "--radius"},
-                    BadCommand{"stairstep-stimuli --out x --contrast 1.5", 2, "contrast 1.5"},
-                    BadCommand{"stairstep-stimuli --out x --contrast 0", 2, "contrast 0"},
-                    BadCommand{"stairstep-stimuli --out x --size 0x480", 2, "--size"},
-                    BadCommand{"stairstep-stimuli --out x --size 1000000000x480", 2, "--size"},
-                    BadCommand{"stairstep-stimuli --out x --pattern blob", 2, "blob"},
-                    BadCommand{"stairstep-stimuli --out x --kernel disk", 2, "disk"},
-                    BadCommand{"stairstep-stimuli --out x --bits 12", 2, "--bits"},
-                    BadCommand{"stairstep-stimuli --out text.txt", 1, "text.txt"},
-                    BadCommand{"stairstep-stimuli --out /proc/self/x", 1, "/proc/self/x"}));
+INSTANTIATE_TEST_SUITE_P(Stimuli, BadInput,
+                         testing::Values(BadCommand{"stairstep-stimuli", 2, "--out"},
+                                         BadCommand{"stairstep-stimuli --out x --blob", 2, "--blob"},
+                                         BadCommand{"stairstep-stimuli --out x --texel 0", 2, "texel size 0"},
+                                         BadCommand{"stairstep-stimuli --out x --texel -5", 2, "texel size -5"},
+                                         BadCommand{"stairstep-stimuli --out x --texel nan", 2, "--texel"},
+                                         BadCommand{"stairstep-stimuli --out x --radius -1", 2, "filter radius -1"},
+                                         BadCommand{"stairstep-stimuli --out x --radius 0:1e-9:80", 2, "--radius"},
+                                         BadCommand{"stairstep-stimuli --out x --contrast 1.5", 2, "contrast 1.5"},
+                                         BadCommand{"stairstep-stimuli --out x --contrast 0", 2, "contrast 0"},
+                                         BadCommand{"stairstep-stimuli --out x --size 0x480", 2, "--size"},
+                                         BadCommand{"stairstep-stimuli --out x --size 1000000000x480", 2, "--size"},
+                                         BadCommand{"stairstep-stimuli --out x --pattern blob", 2, "blob"},
+                                         BadCommand{"stairstep-stimuli --out x --kernel disk", 2, "disk"},
+                                         BadCommand{"stairstep-stimuli --out x --bits 12", 2, "--bits"},
+                                         BadCommand{"stairstep-stimuli --out text.txt", 1, "text.txt"},
+                                         BadCommand{"stairstep-stimuli --out /proc/self/x", 1, "/proc/self/x"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Study, BadInput,
-    testing::Values(BadCommand{"stairstep-study", 2, "subcommand"},
-                    BadCommand{"stairstep-study simulate", 2, "--db"},
+    testing::Values(BadCommand{"stairstep-study", 2, "subcommand"}, BadCommand{"stairstep-study simulate", 2, "--db"},
                     BadCommand{"stairstep-study simulate --db good.sqlite", 2, "good.sqlite"},
                     BadCommand{"stairstep-study simulate --db absent/x.sqlite", 1, "absent/x.sqlite"},
                     BadCommand{"stairstep-study simulate --db x.sqlite --observers 0", 2, "--observers"},
@@ -136,10 +135,14 @@ TEST(CommandLine, EveryProgramHelps) {
 
 TEST(CommandLine, AFullDiskIsSaidAndLeavesNoPartialFile) {
     const TemporaryFolder folder;
-    ASSERT_EQ(run_command(program("stairstep-study") + " simulate --observers 2 --db " + folder.path().string() + "/s.sqlite").exit_code, 0);
+    ASSERT_EQ(
+        run_command(program("stairstep-study") + " simulate --observers 2 --db " + folder.path().string() + "/s.sqlite")
+            .exit_code,
+        0);
     // A limit on file size stands in for a full disk.
-    const CommandResult result = run_command("trap '' XFSZ; ulimit -f 4; " + program("stairstep-study") + " export --db " +
-                                             folder.path().string() + "/s.sqlite --out " + folder.path().string());
+    const CommandResult result =
+        run_command("trap '' XFSZ; ulimit -f 4; " + program("stairstep-study") + " export --db " +
+                    folder.path().string() + "/s.sqlite --out " + folder.path().string());
     EXPECT_EQ(result.exit_code, 1) << result.errors;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "trials.csv"));
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {

@@ -29,7 +29,8 @@ class Pipeline : public testing::Test {
 };
 
 TEST_F(Pipeline, StimuliAreListedWrittenAndWhatTheyClaim) {
-    run("stairstep-stimuli --texel 10 --radius 0,35 --contrast 1,0.5 --size 64x48 --out stimuli --contact-sheet sheet.png");
+    run("stairstep-stimuli --texel 10 --radius 0,35 --contrast 1,0.5 --size 64x48 --out stimuli --contact-sheet "
+        "sheet.png");
     const CsvTable manifest = CsvTable::read(file("stimuli/stimuli.csv"));
     ASSERT_EQ(manifest.row_count(), 4u * 2u * 2u);
     for (size_t row = 0; row < manifest.row_count(); ++row) {
@@ -53,8 +54,10 @@ TEST_F(Pipeline, OneAndManyThreadsWriteTheSameBytes) {
 }
 
 TEST_F(Pipeline, SameSeedSameStudyAndTheDatabaseAndItsExportGiveTheSameLaw) {
-    run("stairstep-study simulate --observers 4 --seed 5 --db a.sqlite && stairstep-study export --db a.sqlite --out a");
-    run("stairstep-study simulate --observers 4 --seed 5 --db b.sqlite && stairstep-study export --db b.sqlite --out b");
+    run("stairstep-study simulate --observers 4 --seed 5 --db a.sqlite && stairstep-study export --db a.sqlite --out "
+        "a");
+    run("stairstep-study simulate --observers 4 --seed 5 --db b.sqlite && stairstep-study export --db b.sqlite --out "
+        "b");
     EXPECT_EQ(read_file(file("a/trials.csv")), read_file(file("b/trials.csv")));
     run("stairstep-analyze fit a.sqlite --out from-database.json");
     run("stairstep-analyze fit a/trials.csv --out from-table.json");
@@ -79,7 +82,8 @@ TEST_F(Pipeline, AnotherPlantedLawIsFound) {
 }
 
 TEST_F(Pipeline, TheRendererTakesTheLawThatTheAnalysisWrote) {
-    run("stairstep-study simulate --observers 3 --seed 2 --db s.sqlite && stairstep-analyze fit s.sqlite --out law.json");
+    run("stairstep-study simulate --observers 3 --seed 2 --db s.sqlite && stairstep-analyze fit s.sqlite --out "
+        "law.json");
     const double slope = read_law(file("law.json")).slope;
     const int size = std::stoi(run("stairstep-render size --law law.json --radius 0.4 --extent 28").output);
     EXPECT_EQ(size, static_cast<int>(std::ceil(slope * 28 / 0.4)));

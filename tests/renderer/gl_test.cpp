@@ -15,8 +15,7 @@ template <typename T>
 constexpr bool kMoveOnly = std::is_nothrow_move_constructible_v<T>&& std::is_nothrow_move_assignable_v<T> &&
                            !std::is_copy_constructible_v<T> && !std::is_copy_assignable_v<T>;
 static_assert(kMoveOnly<gl::Texture> && kMoveOnly<gl::Buffer> && kMoveOnly<gl::VertexArray> &&
-              kMoveOnly<gl::Framebuffer> && kMoveOnly<gl::Query> && kMoveOnly<gl::Shader> &&
-              kMoveOnly<gl::Program>);
+              kMoveOnly<gl::Framebuffer> && kMoveOnly<gl::Query> && kMoveOnly<gl::Shader> && kMoveOnly<gl::Program>);
 
 TEST(Gl, AMissingFunctionIsNamed) {
     try {
@@ -57,11 +56,10 @@ TEST_F(GlWithContext, AShaderErrorCarriesTheDriversLog) {
 }
 
 TEST_F(GlWithContext, ALinkErrorIsOneToo) {
-    EXPECT_THROW(
-        gl::make_program(
-            "unlinked", {"#version 450 core\nvoid main() { gl_Position = vec4(0); }\n"},
-            {"#version 450 core\nvec3 missing();\nout vec4 c;\nvoid main() { c = vec4(missing(), 1); }\n"}),
-        FailureError);
+    EXPECT_THROW(gl::make_program(
+                     "unlinked", {"#version 450 core\nvoid main() { gl_Position = vec4(0); }\n"},
+                     {"#version 450 core\nvec3 missing();\nout vec4 c;\nvoid main() { c = vec4(missing(), 1); }\n"}),
+                 FailureError);
 }
 
 TEST_F(GlWithContext, AWrongCallIsReportedOnceAndByName) {

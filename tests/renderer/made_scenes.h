@@ -37,13 +37,11 @@ inline Mesh sphere(float radius, int rings) {
             mesh.vertices.push_back({radius * normal, normal, {0, 0}});
         }
     }
-    const auto at = [&](int ring, int i) {
-        return static_cast<uint32_t>(ring * 2 * rings + i % (2 * rings));
-    };
+    const auto at = [&](int ring, int i) { return static_cast<uint32_t>(ring * 2 * rings + i % (2 * rings)); };
     for (int ring = 0; ring < rings; ++ring) {
         for (int i = 0; i < 2 * rings; ++i) {
-            mesh.indices.insert(mesh.indices.end(), {at(ring, i), at(ring, i + 1), at(ring + 1, i),
-                                                     at(ring, i + 1), at(ring + 1, i + 1), at(ring + 1, i)});
+            mesh.indices.insert(mesh.indices.end(), {at(ring, i), at(ring, i + 1), at(ring + 1, i), at(ring, i + 1),
+                                                     at(ring + 1, i + 1), at(ring + 1, i)});
         }
     }
     return mesh;
@@ -76,8 +74,7 @@ inline Scene scene_of(std::vector<Mesh> meshes) {
 }
 
 /// A camera that looks from `eye` against `direction`.
-inline Camera camera_at(const glm::dvec3& eye, const Direction& direction, double near = 0.01,
-                        double far = 50) {
+inline Camera camera_at(const glm::dvec3& eye, const Direction& direction, double near = 0.01, double far = 50) {
     return {basis_towards(direction), eye, 60, near, far};
 }
 
@@ -89,13 +86,12 @@ inline Camera camera_down(const glm::dvec3& eye) {
 /// The point at height y that a pixel's centre shows under `camera_down`.
 inline glm::dvec3 point_below(const Camera& camera, int column, int row, int width, int height, double y) {
     const double pixel = pixel_footprint(camera, camera.eye.y - y, height);
-    return {camera.eye.x + (column + 0.5 - width / 2.0) * pixel, y,
-            camera.eye.z + (row + 0.5 - height / 2.0) * pixel};
+    return {camera.eye.x + (column + 0.5 - width / 2.0) * pixel, y, camera.eye.z + (row + 0.5 - height / 2.0) * pixel};
 }
 
-inline std::vector<float> draw_visibility(const Scene& scene, const Camera& camera,
-                                          const std::string& technique, const TechniqueSettings& settings,
-                                          const ShadowMapShape& shape, int width, int height) {
+inline std::vector<float> draw_visibility(const Scene& scene, const Camera& camera, const std::string& technique,
+                                          const TechniqueSettings& settings, const ShadowMapShape& shape, int width,
+                                          int height) {
     const GpuScene gpu = upload(scene);
     const FrameTarget target = make_frame_target(Show::visibility, width, height, 1);
     const ShadowRenderer renderer = make_shadow_renderer(technique_named(technique), settings, shape);

@@ -1,18 +1,15 @@
 // stairstep-render from the command line: results, exit codes and the one line an error is.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include "stimuli/io/image_file.h"
 #include "stimuli/io/json_file.h"
 #include "stimuli/io/output_file.h"
+#include "stimuli/io/temporary_folder.h"
+#include "tests/support/command.h"
 
 namespace stairstep {
 namespace {
@@ -21,59 +18,41 @@ namespace fs = std::filesystem;
 
 const std::string kTruck = "/usr/share/assimp/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf";
 
-struct Outcome {
-    int exit_code = -1;
-    /// Standard output, then errors.
-    std::string text;
-};
-
-Outcome run(const std::string& arguments) {
-    const std::string command = std::string(STAIRSTEP_BIN_DIR) + "/stairstep-render " + arguments + " 2>&1";
-    Outcome outcome;
-    FILE* pipe = popen(command.c_str(), "r");
-    if (!pipe) return outcome;
-    std::array<char, 4096> part;
-    while (const size_t length = fread(part.data(), 1, part.size(), pipe))
-        outcome.text.append(part.data(), length);
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return outcome;
+CommandResult run(const std::string& arguments) {
+    return run_command(program("stairstep-render") + " " + arguments);
 }
 
 void expect_error(const std::string& arguments, int exit_code, const std::string& part) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code) << arguments << "\n" << outcome.text;
-    EXPECT_EQ(outcome.text.rfind("error: ", 0), 0u) << arguments << "\n" << outcome.text;
-    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
-    EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
+    const CommandResult outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments << "\n" << outcome.errors;
+    EXPECT_TRUE(is_one_error_line(outcome.errors)) << arguments << "\n" << outcome.errors;
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
 }
 
 class RenderProgram : public testing::Test {
   protected:
-    void SetUp() override { fs::create_directories(folder_); }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    std::string at(const std::string& name) const { return (folder_ / name).string(); }
+    std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
 
     size_t file_count() const {
-        return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+        return static_cast<size_t>(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
     }
 
-    fs::path folder_ = fs::temp_directory_path() / ("stairstep-render-" + std::to_string(getpid()));
+    TemporaryFolder folder_;
 };
 
 TEST_F(RenderProgram, SizePrintsTheAnchor) {
-    EXPECT_EQ(run("size --radius 0.4 --extent 28").text, "243\n");
-    EXPECT_EQ(run("size --law kreuzer2017 --radius 0.4 --extent 28 --smallest-texel 1").text, "28\n");
-    const nlohmann::json json = nlohmann::json::parse(run("size --radius 0.4 --extent 28 --json").text);
+    EXPECT_EQ(run("size --radius 0.4 --extent 28").output, "243\n");
+    EXPECT_EQ(run("size --law kreuzer2017 --radius 0.4 --extent 28 --smallest-texel 1").output, "28\n");
+    const nlohmann::json json = nlohmann::json::parse(run("size --radius 0.4 --extent 28 --json").output);
     EXPECT_EQ(json["texels"], 243);
     EXPECT_EQ(json["limited_by"], "law");
 }
 
 TEST_F(RenderProgram, SizeRefusesNonsense) {
     for (const std::string radius : {"0", "-1", "nan", "inf", "soft", "\"\""}) {
-        const Outcome outcome = run("size --extent 28 --radius=" + radius);
-        EXPECT_EQ(outcome.exit_code, 2) << radius << "\n" << outcome.text;
+        const CommandResult outcome = run("size --extent 28 --radius=" + radius);
+        EXPECT_EQ(outcome.exit_code, 2) << radius << "\n" << outcome.errors;
     }
     expect_error("size --radius 0.4 --extent 0", 2, "extent");
     expect_error("size --radius 0.4 --extent 28 --largest-size 0", 2, "largest");
@@ -88,10 +67,10 @@ TEST_F(RenderProgram, SizeSaysWhenNoMapIsLargeEnough) {
 }
 
 TEST_F(RenderProgram, ImageDrawsComparesAndMeasures) {
-    const Outcome outcome =
-        run("image " + kTruck + " --resolution 1024,auto --size 320x180 --frames 1 --truth --out " +
-            at("img.png") + " --stats " + at("stats.json"));
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+    const CommandResult outcome =
+        run("image " + kTruck + " --resolution 1024,auto --size 320x180 --frames 1 --truth --out " + at("img.png") +
+            " --stats " + at("stats.json"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
     const nlohmann::json stats = read_json(at("stats.json"));
     EXPECT_EQ(stats["triangles"], 3624);
     ASSERT_EQ(stats["renderings"].size(), 2u);
@@ -118,10 +97,10 @@ TEST_F(RenderProgram, ImageDrawsComparesAndMeasures) {
 }
 
 TEST_F(RenderProgram, OneResolutionTakesTheNameItself) {
-    const Outcome outcome =
+    const CommandResult outcome =
         run("image " + kTruck + " --size 160x90 --frames 1 --show visibility --json --out " + at("v.png"));
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-    EXPECT_EQ(nlohmann::json::parse(outcome.text)["renderings"][0]["file"], at("v.png"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(nlohmann::json::parse(outcome.output)["renderings"][0]["file"], at("v.png"));
     EXPECT_EQ(read_image(at("v.png")).channels, 1);
     EXPECT_EQ(file_count(), 1u);
 }
@@ -129,9 +108,7 @@ TEST_F(RenderProgram, OneResolutionTakesTheNameItself) {
 // No two runs differ but in their times.
 TEST_F(RenderProgram, PicturesAreReproducible) {
     for (const std::string name : {"a.png", "b.png"}) {
-        ASSERT_EQ(
-            run("image " + kTruck + " --resolution 512 --size 160x90 --frames 1 --out " + at(name)).exit_code,
-            0);
+        ASSERT_EQ(run("image " + kTruck + " --resolution 512 --size 160x90 --frames 1 --out " + at(name)).exit_code, 0);
     }
     EXPECT_EQ(read_image(at("a.png")).pixels, read_image(at("b.png")).pixels);
 }
@@ -160,25 +137,24 @@ TEST_F(RenderProgram, ImageRefusesBadInput) {
 }
 
 TEST_F(RenderProgram, ALawOfAnotherKernelMustBeConvertedKnowingly) {
-    nlohmann::ordered_json law = nlohmann::ordered_json::parse(
-        read_file(std::string(STAIRSTEP_SOURCE_DIR) + "/analysis/law/kreuzer2017.json"));
+    nlohmann::ordered_json law =
+        nlohmann::ordered_json::parse(read_file(std::string(STAIRSTEP_SOURCE_DIR) + "/analysis/law/kreuzer2017.json"));
     law["kernel"] = "disk";
     write_json(at("disk.json"), law);
-    const std::string image = "image " + kTruck + " --size 64x36 --frames 1 --json --law " + at("disk.json") +
-                              " --out " + at("x.png");
+    const std::string image =
+        "image " + kTruck + " --size 64x36 --frames 1 --json --law " + at("disk.json") + " --out " + at("x.png");
     expect_error(image, 2, "--convert-kernel");
-    const Outcome outcome = run(image + " --convert-kernel");
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-    const nlohmann::json stats = nlohmann::json::parse(outcome.text);
+    const CommandResult outcome = run(image + " --convert-kernel");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    const nlohmann::json stats = nlohmann::json::parse(outcome.output);
     EXPECT_TRUE(stats["law"]["kernel_converted"]);
     EXPECT_NEAR(stats["law"]["slope_for_box"].get<double>(), 3.47 * 0.5 * std::sqrt(3.0), 1e-9);
 }
 
 TEST_F(RenderProgram, WhatCantBeWrittenLeavesNothing) {
     expect_error("image " + kTruck + " --out /nonexistent/x.png", 1, "/nonexistent");
-    expect_error(
-        "image " + kTruck + " --size 64x36 --frames 1 --out " + at("x.png") + " --stats /nonexistent/s.json",
-        1, "/nonexistent");
+    expect_error("image " + kTruck + " --size 64x36 --frames 1 --out " + at("x.png") + " --stats /nonexistent/s.json",
+                 1, "/nonexistent");
     EXPECT_EQ(file_count(), 0u);
 }
 

@@ -149,9 +149,3 @@ TEST_F(SceneImport, EveryModelOfAssimpsTestsLoadsOrIsRefused) {
 
 }  // namespace
 }  // namespace stairstep
-
-#ifdef __SANITIZE_ADDRESS__
-// Some of Assimp 5.2's importers leak part of the broken models here; leaks of ours still show.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }
-#endif

@@ -29,8 +29,7 @@ const Camera kCamera = made::camera_down({0, 1.5, 0});
 /// A map over [−extent/2, extent/2] along each axis, made by hand so that its texel grid is known.
 ShadowMapShape shape_over(double texel, int width, int height) {
     const glm::dvec2 half = glm::dvec2(width, height) * texel / 2.0;
-    return {
-        {basis_towards(kStraightDown), -half, half, -2.1, -1.9}, width, height, ShadowMapShape::Limit::fixed};
+    return {{basis_towards(kStraightDown), -half, half, -2.1, -1.9}, width, height, ShadowMapShape::Limit::fixed};
 }
 
 /// Visibility of the box by adding up, texel by texel, what casts no shadow: `covers` says whether the caster
@@ -74,16 +73,13 @@ void expect_everywhere(const std::vector<float>& drawn, double tolerance, Expect
 // The stimuli's stair is a silhouette at 45° whose line goes through the middle of treads: texel centres lie
 // at whole texels along x (an odd count, centred) and at halves along y (an even one).
 TEST_F(Shadow, ExactPcfIsTheStimulisStair) {
-    const Scene scene =
-        made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
+    const Scene scene = made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
     for (const double texel : {0.05, 0.11}) {
         for (const double radius_texels : {0.3, 1.0, 3.47, 3.5, 6.2}) {
             const double radius = radius_texels * texel;
-            const std::vector<float> drawn =
-                made::draw_visibility(scene, kCamera, "pcf", {radius, FilterMode::exact, 0},
-                                      shape_over(texel, 101, 100), kWidth, kHeight);
-            SCOPED_TRACE(testing::Message()
-                         << "texel " << texel << ", radius " << radius_texels << " texels");
+            const std::vector<float> drawn = made::draw_visibility(
+                scene, kCamera, "pcf", {radius, FilterMode::exact, 0}, shape_over(texel, 101, 100), kWidth, kHeight);
+            SCOPED_TRACE(testing::Message() << "texel " << texel << ", radius " << radius_texels << " texels");
             // A filter below a texel blurs steps over so few pixels that their rounding in float shows more.
             const double tolerance = radius_texels < 1 ? 4 * kLevel : kLevel;
             expect_everywhere(drawn, tolerance, [&](const glm::dvec2& p) {
@@ -103,9 +99,9 @@ TEST_F(Shadow, ExactPcfIsTheBoxOverTheTexelsOfAnyCaster) {
         {"rectangle",
          {{-0.413f, 2, -0.287f}, {-0.413f, 2, 0.287f}, {0.413f, 2, 0.287f}, {0.413f, 2, -0.287f}},
          [](const glm::dvec2& p) { return std::abs(p.x) <= 0.413 && std::abs(p.y) <= 0.287; }},
-        {"diamond",
-         {{-0.513f, 2, 0}, {0, 2, 0.513f}, {0.513f, 2, 0}, {0, 2, -0.513f}},
-         [](const glm::dvec2& p) { return std::abs(p.x) + std::abs(p.y) <= 0.513; }}};
+        {"diamond", {{-0.513f, 2, 0}, {0, 2, 0.513f}, {0.513f, 2, 0}, {0, 2, -0.513f}}, [](const glm::dvec2& p) {
+             return std::abs(p.x) + std::abs(p.y) <= 0.513;
+         }}};
     for (const Case& shape_case : cases) {
         SCOPED_TRACE(shape_case.name);
         const Scene scene = made::scene_of({made::polygon(shape_case.corners, true), made::ground(0, 9)});
@@ -124,8 +120,7 @@ TEST_F(Shadow, ExactPcfIsTheBoxOverTheTexelsOfAnyCaster) {
 }
 
 TEST_F(Shadow, SampledPcfIsWithoutBias) {
-    const Scene scene =
-        made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
+    const Scene scene = made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
     const ShadowMapShape shape = shape_over(0.021, 201, 200);
     const double radius = 0.3;
     const auto draw = [&](FilterMode mode) {
@@ -151,10 +146,9 @@ TEST_F(Shadow, SampledPcfIsWithoutBias) {
 }
 
 TEST_F(Shadow, HardIsOneTexel) {
-    const Scene scene =
-        made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
-    const std::vector<float> drawn = made::draw_visibility(
-        scene, kCamera, "hard", {1, FilterMode::automatic, 0}, shape_over(0.11, 101, 100), kWidth, kHeight);
+    const Scene scene = made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
+    const std::vector<float> drawn = made::draw_visibility(scene, kCamera, "hard", {1, FilterMode::automatic, 0},
+                                                           shape_over(0.11, 101, 100), kWidth, kHeight);
     int wrong = 0;
     for (int row = 0; row < kHeight; ++row) {
         for (int column = 0; column < kWidth; ++column) {
@@ -167,12 +161,11 @@ TEST_F(Shadow, HardIsOneTexel) {
 }
 
 TEST_F(Shadow, ABoxFarBelowATexelIsHard) {
-    const Scene scene =
-        made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
+    const Scene scene = made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
     const ShadowMapShape shape = shape_over(0.11, 101, 100);
     const auto draw = [&](const std::string& technique) {
-        return made::draw_visibility(scene, kCamera, technique, {1e-9, FilterMode::automatic, 0}, shape,
-                                     kWidth, kHeight);
+        return made::draw_visibility(scene, kCamera, technique, {1e-9, FilterMode::automatic, 0}, shape, kWidth,
+                                     kHeight);
     };
     const std::vector<float> hard = draw("hard");
     const std::vector<float> pcf = draw("pcf");
@@ -182,8 +175,7 @@ TEST_F(Shadow, ABoxFarBelowATexelIsHard) {
 }
 
 TEST_F(Shadow, NoneIsLit) {
-    const Scene scene =
-        made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
+    const Scene scene = made::scene_of({made::polygon({{-9, 2, 9}, {9, 2, -9}, {9, 2, 9}}, true), made::ground(0, 9)});
     for (const float value : made::draw_visibility(scene, kCamera, "none", {1, FilterMode::automatic, 0},
                                                    shape_over(0.11, 101, 100), kWidth, kHeight)) {
         ASSERT_EQ(value, 1);
@@ -202,24 +194,21 @@ TEST_F(Shadow, ASphereHasNoAcne) {
             const std::vector<float> drawn =
                 made::draw_visibility(scene, camera, technique, {0.1, FilterMode::automatic, 25},
                                       map_of_size(frustum, side), kWidth, kHeight);
-            const auto dark =
-                std::count_if(drawn.begin(), drawn.end(), [](float v) { return v < 1 - kLevel; });
+            const auto dark = std::count_if(drawn.begin(), drawn.end(), [](float v) { return v < 1 - kLevel; });
             EXPECT_EQ(dark, 0) << technique << " " << side;
         }
     }
 }
 
 TEST_F(Shadow, ATiltedPlaneHasNoAcne) {
-    const Scene scene =
-        made::scene_of({made::polygon({{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}}, true)});
+    const Scene scene = made::scene_of({made::polygon({{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}}, true)});
     for (const double elevation : {5.0, 20.0, 60.0, 90.0}) {
         const LightFrustum frustum = fit_light_frustum(scene, {33, elevation}, 0.1);
         for (const int side : {64, 1024}) {
-            const std::vector<float> drawn = made::draw_visibility(
-                scene, made::camera_down({0, 3, 0}), "pcf", {0.1, FilterMode::automatic, 25},
-                map_of_size(frustum, side), kWidth, kHeight);
-            const auto dark =
-                std::count_if(drawn.begin(), drawn.end(), [](float v) { return v < 1 - kLevel; });
+            const std::vector<float> drawn =
+                made::draw_visibility(scene, made::camera_down({0, 3, 0}), "pcf", {0.1, FilterMode::automatic, 25},
+                                      map_of_size(frustum, side), kWidth, kHeight);
+            const auto dark = std::count_if(drawn.begin(), drawn.end(), [](float v) { return v < 1 - kLevel; });
             EXPECT_EQ(dark, 0) << "elevation " << elevation << ", side " << side;
         }
     }
@@ -234,8 +223,8 @@ TEST_F(Shadow, ReachesUpToTheFootOfABox) {
     const Camera camera = made::camera_down({-1, 4, 0});
     const double texel = std::max(shape.texel().x, shape.texel().y) * std::sqrt(2.0);
     for (const std::string technique : {"hard", "pcf"}) {
-        const std::vector<float> drawn = made::draw_visibility(
-            scene, camera, technique, {0.02, FilterMode::automatic, 25}, shape, kWidth, kHeight);
+        const std::vector<float> drawn =
+            made::draw_visibility(scene, camera, technique, {0.02, FilterMode::automatic, 25}, shape, kWidth, kHeight);
         const int row = kHeight / 2;
         int checked = 0;
         for (int column = 0; column < kWidth; ++column) {
@@ -258,9 +247,8 @@ TEST_F(Shadow, ColourFramesDrawWithAndWithoutSamples) {
     meshes.push_back(made::ground(0, 9));
     const Scene scene = made::scene_of(meshes);
     const GpuScene gpu = upload(scene);
-    const ShadowRenderer renderer =
-        make_shadow_renderer(technique_named("pcf"), {0.05, FilterMode::automatic, 25},
-                             map_of_size(fit_light_frustum(scene, {90, 45}, 0.05), 128));
+    const ShadowRenderer renderer = make_shadow_renderer(technique_named("pcf"), {0.05, FilterMode::automatic, 25},
+                                                         map_of_size(fit_light_frustum(scene, {90, 45}, 0.05), 128));
     for (const int samples : {1, 4}) {
         const FrameTarget target = make_frame_target(Show::colour, 64, 48, samples);
         gl::PassTimer timer;
@@ -276,9 +264,7 @@ TEST_F(Shadow, ColourFramesDrawWithAndWithoutSamples) {
 
 TEST_F(Shadow, SettingsOutOfRangeAreInputErrors) {
     const ShadowMapShape shape = shape_over(0.01, 101, 100);
-    const auto make = [&](const TechniqueSettings& settings) {
-        technique_named("pcf").make(settings, shape);
-    };
+    const auto make = [&](const TechniqueSettings& settings) { technique_named("pcf").make(settings, shape); };
     EXPECT_THROW(make({0.3, FilterMode::sampled, 24}), InputError);
     EXPECT_THROW(make({0.3, FilterMode::sampled, 0}), InputError);
     EXPECT_THROW(make({0.3, FilterMode::sampled, -25}), InputError);

@@ -8,8 +8,7 @@ namespace stairstep {
 namespace {
 
 TEST(Kernel, NamesReadBack) {
-    for (const KernelShape shape :
-         {KernelShape::box, KernelShape::disk, KernelShape::gaussian, KernelShape::poisson}) {
+    for (const KernelShape shape : {KernelShape::box, KernelShape::disk, KernelShape::gaussian, KernelShape::poisson}) {
         EXPECT_EQ(kernel_shape_named(name(shape)), shape);
     }
     EXPECT_FALSE(kernel_shape_named("blob"));

@@ -35,7 +35,11 @@ TEST(Stimulus, HalfOfAnImageIsLit) {
     // The silhouette runs through the centre, so mean luminance is C/2 for each pattern and radius that fits.
     for (const Pattern pattern : {Pattern::step, Pattern::stair, Pattern::line}) {
         for (const double radius : {0.0, 8.0, 20.0}) {
-            Stimulus s{.pattern = pattern, .kernel = {KernelShape::box, radius}, .contrast = 0.8, .width_px = 120, .height_px = 120};
+            Stimulus s{.pattern = pattern,
+                       .kernel = {KernelShape::box, radius},
+                       .contrast = 0.8,
+                       .width_px = 120,
+                       .height_px = 120};
             if (pattern == Pattern::stair) s.silhouette = Pattern::stair;
             double sum = 0;
             for (const double value : luminance(s)) sum += value / (120 * 120);

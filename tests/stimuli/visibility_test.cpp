@@ -58,7 +58,8 @@ TEST(Visibility, BoxEqualsItsDefinitionAtRandomPoints) {
     for (int i = 0; i < 20000; ++i) {
         const double texel = std::exp(std::log(0.7) + random.uniform() * std::log(60 / 0.7));
         const double slope = random.below(4) == 0 ? 1 : random.uniform();
-        const Case cases[] = {{Edge::step(texel), texel, 0}, {Edge::stair(texel), texel, 1}, {Edge::line(slope), 0, slope}};
+        const Case cases[] = {
+            {Edge::step(texel), texel, 0}, {Edge::stair(texel), texel, 1}, {Edge::line(slope), 0, slope}};
         const Case& c = cases[random.below(3)];
         const double radius = std::exp(std::log(0.3) + random.uniform() * std::log(400 / 0.3));
         const double x = 640 * (random.uniform() - 0.5);

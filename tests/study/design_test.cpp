@@ -28,9 +28,7 @@ TEST(Design, BalancesTheOrderOfRoundsOverObservers) {
     std::map<std::pair<std::pair<Pattern, double>, std::pair<Pattern, double>>, int> follows;
     for (int observer = 0; observer < 8; ++observer) {
         const std::vector<Round> rounds = rounds_for(Design(), observer);
-        const auto key = [&](size_t i) {
-            return std::pair(rounds[i].tracks[0].pattern, rounds[i].tracks[0].contrast);
-        };
+        const auto key = [&](size_t i) { return std::pair(rounds[i].tracks[0].pattern, rounds[i].tracks[0].contrast); };
         for (size_t i = 0; i < 4; ++i) ++places[key(i)][i];
         for (size_t i = 0; i < 3; ++i) ++follows[{key(i), key(i + 1)}];
     }
@@ -42,7 +40,9 @@ TEST(Design, BalancesTheOrderOfRoundsOverObservers) {
     for (const auto& [pair, count] : follows) EXPECT_EQ(count, 2);
 }
 
-TEST(Design, GuessesThreeTexels) { EXPECT_NEAR(quest_settings(Design()).guess, -std::log10(3), 1e-15); }
+TEST(Design, GuessesThreeTexels) {
+    EXPECT_NEAR(quest_settings(Design()).guess, -std::log10(3), 1e-15);
+}
 
 }  // namespace
 }  // namespace stairstep

@@ -49,7 +49,8 @@ TEST(Quest, IsAsEfficientAsPlacementAtTheMeanCanBe) {
 TEST(Quest, PosteriorEqualsThePlainProductOfLikelihoods) {
     const QuestSettings settings{.guess = -0.4};
     Quest quest(settings);
-    const std::vector<std::pair<double, bool>> answers{{-0.3, true}, {-0.512345, false}, {0.2, true}, {-2.0, false}, {3.7, true}};
+    const std::vector<std::pair<double, bool>> answers{
+        {-0.3, true}, {-0.512345, false}, {0.2, true}, {-2.0, false}, {3.7, true}};
     for (const auto& [x, correct] : answers) quest.update(x, correct);
 
     const double offset = threshold_offset(settings.shape);

@@ -45,8 +45,8 @@ TEST(Session, EndsTracksOnlyWhenConvergedOrFull) {
         // Replaying the answers gives the posterior that the session stopped on.
         Quest quest(quest_settings(design));
         for (size_t i = 0; i < trials.size(); ++i) {
-            EXPECT_NEAR(trials[i].suggested_radius_px,
-                        trials[i].condition.texel_px * std::pow(10, -quest.suggest()), 1e-9);
+            EXPECT_NEAR(trials[i].suggested_radius_px, trials[i].condition.texel_px * std::pow(10, -quest.suggest()),
+                        1e-9);
             const bool finished = quest.trials() >= design.stop.least_trials && quest.sd() <= design.stop.converged_sd;
             EXPECT_FALSE(finished) << "track " << track << " went on after trial " << i;
             quest.update(std::log10(trials[i].condition.texel_px / trials[i].radius_px), trials[i].correct());

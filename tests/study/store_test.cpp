@@ -112,7 +112,7 @@ TEST(TrialStore, IsNeverOverwrittenNorChanged) {
         TrialStore store = TrialStore::create(path, "s", "{}");
         const int session = store.begin_session({1, "o1", 1, "simulated", "{}", false});
         store.append(some_trial(session, 1));
-        EXPECT_THROW(store.append(some_trial(session, 1)), InputError);  // the same trial twice
+        EXPECT_THROW(store.append(some_trial(session, 1)), InputError);      // the same trial twice
         EXPECT_THROW(store.append(some_trial(session + 1, 1)), InputError);  // a session that never began
     }
     EXPECT_THROW(TrialStore::create(path, "s", "{}"), InputError);

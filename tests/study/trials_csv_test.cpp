@@ -36,9 +36,10 @@ TEST_F(TrialsCsv, HasTheContractsColumnsAndReadsBack) {
     trial.radius_px = 20;
     trial.shown_at_s = 1700000000.1234;
     const std::string text = trials_csv({trial});
-    EXPECT_TRUE(text.starts_with("study,observer,session,round,track,trial,pattern,kernel,contrast,texel_px,"
-                                 "suggested_radius_px,radius_px,stimulus,response,correct,response_time_s,shown_at,"
-                                 "dropped_frames\n"));
+    EXPECT_TRUE(
+        text.starts_with("study,observer,session,round,track,trial,pattern,kernel,contrast,texel_px,"
+                         "suggested_radius_px,radius_px,stimulus,response,correct,response_time_s,shown_at,"
+                         "dropped_frames\n"));
     EXPECT_NE(text.find("2023-11-14T22:13:20.123Z"), std::string::npos) << text;
     const std::vector<Trial> back = read(text);
     ASSERT_EQ(back.size(), 1u);
@@ -49,9 +50,9 @@ TEST_F(TrialsCsv, HasTheContractsColumnsAndReadsBack) {
 }
 
 TEST_F(TrialsCsv, NeedsEightColumnsAlone) {
-    const std::vector<Trial> trials =
-        read("response,stimulus,radius_px,texel_px,contrast,kernel,pattern,observer,mood\n"
-             "line,artifact,12,5,1,box,step,o1,bored\n");
+    const std::vector<Trial> trials = read(
+        "response,stimulus,radius_px,texel_px,contrast,kernel,pattern,observer,mood\n"
+        "line,artifact,12,5,1,box,step,o1,bored\n");
     ASSERT_EQ(trials.size(), 1u);
     EXPECT_FALSE(trials[0].correct());
     EXPECT_EQ(trials[0].suggested_radius_px, 12);

@@ -18,7 +18,9 @@ CommandResult run_command(const std::string& command_line) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(output), read_file(errors)};
 }
 
-std::string program(const std::string& name) { return std::string(STAIRSTEP_BIN_DIR) + "/" + name; }
+std::string program(const std::string& name) {
+    return std::string(STAIRSTEP_BIN_DIR) + "/" + name;
+}
 
 bool is_one_error_line(const std::string& errors) {
     return errors.starts_with("error: ") && errors.ends_with("\n") &&

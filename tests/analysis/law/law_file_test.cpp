@@ -103,10 +103,21 @@ TEST(LawFile, RefusesEachKeyWhenMissingOrSpoilt) {
         spoilt[key] = nullptr;
         EXPECT_NE(refuses(spoilt).find("\"" + key + "\""), std::string::npos) << refuses(spoilt);
     }
-    for (const auto& [key, value] : std::initializer_list<std::pair<const char*, nlohmann::json>>{
-             {"slope", 0}, {"slope", -3}, {"slope", 1e308}, {"slope_ci95", {4, 3}}, {"slope_ci95", {1, 2}}, {"kernel", "blob"},
-             {"pattern", "line"}, {"contrast", 2}, {"threshold_probability", 1}, {"observers", 1.5}, {"observers", -1},
-             {"trials", 1e300}, {"format", "stairstep-law/2"}, {"conditions", {1}}}) {
+    for (const auto& [key, value] :
+         std::initializer_list<std::pair<const char*, nlohmann::json>>{{"slope", 0},
+                                                                       {"slope", -3},
+                                                                       {"slope", 1e308},
+                                                                       {"slope_ci95", {4, 3}},
+                                                                       {"slope_ci95", {1, 2}},
+                                                                       {"kernel", "blob"},
+                                                                       {"pattern", "line"},
+                                                                       {"contrast", 2},
+                                                                       {"threshold_probability", 1},
+                                                                       {"observers", 1.5},
+                                                                       {"observers", -1},
+                                                                       {"trials", 1e300},
+                                                                       {"format", "stairstep-law/2"},
+                                                                       {"conditions", {1}}}) {
         auto spoilt = good;
         spoilt[key] = value;
         EXPECT_NE(refuses(spoilt), "accepted") << key << " = " << value;

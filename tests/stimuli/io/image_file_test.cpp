@@ -37,6 +37,7 @@ TEST(ImageFile, RefusesDamagedFiles) {
         EXPECT_THROW(read_image(folder.path() / "cut.png"), InputError) << size << " bytes";
     }
     EXPECT_THROW(read_image(folder.path() / "absent.png"), InputError);
+    EXPECT_THROW(read_image(folder.path()), InputError);
 }
 
 TEST(ContactSheet, ShowsStepsWithoutAFilterAndNoneUnderAWideOne) {
