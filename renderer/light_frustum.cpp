@@ -7,12 +7,9 @@ namespace {
 
 ShadowMapShape::Limit limit_of(SizeLimit limit) {
     switch (limit) {
-        case SizeLimit::law:
-            return ShadowMapShape::Limit::law;
-        case SizeLimit::screen:
-            return ShadowMapShape::Limit::screen;
-        case SizeLimit::largest_size:
-            return ShadowMapShape::Limit::largest_size;
+        case SizeLimit::law: return ShadowMapShape::Limit::law;
+        case SizeLimit::screen: return ShadowMapShape::Limit::screen;
+        case SizeLimit::largest_size: return ShadowMapShape::Limit::largest_size;
     }
     return ShadowMapShape::Limit::law;
 }
@@ -21,14 +18,10 @@ ShadowMapShape::Limit limit_of(SizeLimit limit) {
 
 std::string_view name(ShadowMapShape::Limit limit) {
     switch (limit) {
-        case ShadowMapShape::Limit::fixed:
-            return "fixed";
-        case ShadowMapShape::Limit::law:
-            return "law";
-        case ShadowMapShape::Limit::screen:
-            return "screen";
-        case ShadowMapShape::Limit::largest_size:
-            return "largest_size";
+        case ShadowMapShape::Limit::fixed: return "fixed";
+        case ShadowMapShape::Limit::law: return "law";
+        case ShadowMapShape::Limit::screen: return "screen";
+        case ShadowMapShape::Limit::largest_size: return "largest_size";
     }
     return "";
 }

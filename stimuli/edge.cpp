@@ -26,12 +26,9 @@ double column(double x, double texel_px) {
 
 std::string_view name(Pattern pattern) {
     switch (pattern) {
-        case Pattern::step:
-            return "step";
-        case Pattern::stair:
-            return "stair";
-        case Pattern::line:
-            return "line";
+        case Pattern::step: return "step";
+        case Pattern::stair: return "stair";
+        case Pattern::line: return "line";
     }
     return "";
 }
@@ -56,12 +53,9 @@ Edge Edge::line(double slope) {
 
 double Edge::height(double x) const {
     switch (pattern_) {
-        case Pattern::step:
-            return x < 0 ? -texel_px_ / 2 : texel_px_ / 2;
-        case Pattern::stair:
-            return column(x, texel_px_) * texel_px_;
-        case Pattern::line:
-            return slope_ * x;
+        case Pattern::step: return x < 0 ? -texel_px_ / 2 : texel_px_ / 2;
+        case Pattern::stair: return column(x, texel_px_) * texel_px_;
+        case Pattern::line: return slope_ * x;
     }
     return 0;
 }
@@ -99,14 +93,12 @@ double Edge::area_below(double level, double x0, double x1) const {
 
 Point Edge::localised(Point p) const {
     switch (pattern_) {
-        case Pattern::step:
-            return p;
+        case Pattern::step: return p;
         case Pattern::stair: {
             const double shift = column(p.x, texel_px_) * texel_px_;
             return {p.x - shift, p.y - shift};
         }
-        case Pattern::line:
-            return {0, p.y - slope_ * p.x};
+        case Pattern::line: return {0, p.y - slope_ * p.x};
     }
     return p;
 }

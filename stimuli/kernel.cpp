@@ -14,14 +14,10 @@ constexpr std::array kShapes{KernelShape::box, KernelShape::disk, KernelShape::g
 
 std::string_view name(KernelShape shape) {
     switch (shape) {
-        case KernelShape::box:
-            return "box";
-        case KernelShape::disk:
-            return "disk";
-        case KernelShape::gaussian:
-            return "gaussian";
-        case KernelShape::poisson:
-            return "poisson";
+        case KernelShape::box: return "box";
+        case KernelShape::disk: return "disk";
+        case KernelShape::gaussian: return "gaussian";
+        case KernelShape::poisson: return "poisson";
     }
     return "";
 }
@@ -35,16 +31,14 @@ std::optional<KernelShape> kernel_shape_named(std::string_view text) {
 
 double axis_deviation(KernelShape shape) {
     switch (shape) {
-        case KernelShape::box:
-            return 1 / std::sqrt(3.0);
+        case KernelShape::box: return 1 / std::sqrt(3.0);
         case KernelShape::gaussian: {
             // A standard normal cut at ±c keeps the variance 1 − 2c·φ(c)/erf(c/√2); here c = 3.
             const double density = std::exp(-4.5) / std::sqrt(2 * std::numbers::pi);
             return 0.5 * std::sqrt(1 - 6 * density / std::erf(3 / std::numbers::sqrt2));
         }
         case KernelShape::disk:
-        case KernelShape::poisson:
-            return 0.5;
+        case KernelShape::poisson: return 0.5;
     }
     return 0;
 }

@@ -36,12 +36,9 @@ Edge edge_of(const Stimulus& stimulus) {
     const double step_slope =
         stimulus.step_reference == StepReference::sloped ? stimulus.texel_px / stimulus.width_px : 0;
     switch (stimulus.pattern) {
-        case Pattern::step:
-            return Edge::step(stimulus.texel_px);
-        case Pattern::stair:
-            return Edge::stair(stimulus.texel_px);
-        case Pattern::line:
-            break;
+        case Pattern::step: return Edge::step(stimulus.texel_px);
+        case Pattern::stair: return Edge::stair(stimulus.texel_px);
+        case Pattern::line: break;
     }
     return Edge::line(stimulus.silhouette == Pattern::stair ? 1 : step_slope);
 }

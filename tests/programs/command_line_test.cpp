@@ -22,6 +22,11 @@ struct BadCommand {
     const char* names;
 };
 
+/// CTest calls a case by its command.
+void PrintTo(const BadCommand& bad, std::ostream* stream) {
+    *stream << bad.command;
+}
+
 class BadInput : public testing::TestWithParam<BadCommand> {};
 
 /// What lies in a folder, with the size of each file.

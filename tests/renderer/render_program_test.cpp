@@ -86,7 +86,7 @@ TEST_F(RenderProgram, ImageDrawsComparesAndMeasures) {
         EXPECT_GT(rendering["frame_ms"].get<double>(), 0);
         EXPECT_LT(rendering["visibility_error"]["rmse"].get<double>(), 0.06);
         EXPECT_GT(rendering["visibility_error"]["penumbra_share"].get<double>(), 0.01);
-        const Image picture = read_image(rendering["file"].get<std::string>());
+        const Image picture = read_image(at(rendering["file"].get<std::string>()));
         EXPECT_EQ(picture.width, 320);
         EXPECT_EQ(picture.height, 180);
     }
