@@ -1,6 +1,7 @@
 // stairstep-analyze: fits the law to a study's trials and reports it.
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <set>
 
 #include "analysis/law_fit.h"
 #include "analysis/report.h"
@@ -17,10 +18,35 @@ namespace {
 /// What thresholds mean unless --p says otherwise: the study's own criterion.
 constexpr double kDefaultProbability = 0.82;
 
-std::vector<Trial> read_trials(const std::string& path) {
-    std::vector<Trial> trials = path.ends_with(".csv") ? read_trials_csv(path) : TrialStore::open(path).trials();
-    if (trials.empty()) throw InputError(path, "holds no trial", "run the study first");
-    return trials;
+/// Trials and where they come from.
+struct StudyData {
+    std::vector<Trial> trials;
+    std::string source;
+    /// "simulated", "person", a mix of them; empty for a table, which doesn't tell.
+    std::string observer_kind;
+};
+
+std::string observer_kind_of(const TrialStore& store) {
+    std::set<std::string> kinds;
+    for (const SessionRecord& session : store.sessions()) kinds.insert(session.observer_kind);
+    std::string text;
+    for (const std::string& kind : kinds) text += (text.empty() ? "" : " and ") + kind;
+    return text;
+}
+
+StudyData read_study(const std::string& path) {
+    StudyData study;
+    study.source = std::filesystem::path(path).filename().string();
+    if (path.ends_with(".csv")) {
+        study.trials = read_trials_csv(path);
+    } else {
+        const TrialStore store = TrialStore::open(path);
+        study.trials = store.trials();
+        study.observer_kind = observer_kind_of(store);
+        study.source += " (" + study.observer_kind + " observers)";
+    }
+    if (study.trials.empty()) throw InputError(path, "holds no trial", "run the study first");
+    return study;
 }
 
 std::string interval_text(const Interval& interval) {
@@ -44,8 +70,8 @@ void print_warnings(const LawFit& fit) {
 }
 
 void fit_to_file(const std::string& trials_path, double p_threshold, const std::string& out, bool as_json) {
-    const LawFit fit =
-        fit_law(read_trials(trials_path), p_threshold, std::filesystem::path(trials_path).filename().string());
+    const StudyData study = read_study(trials_path);
+    const LawFit fit = fit_law(study.trials, p_threshold, study.source);
     print_warnings(fit);
     write_law(out, fit.law);
     if (as_json) {
@@ -56,12 +82,11 @@ void fit_to_file(const std::string& trials_path, double p_threshold, const std::
     }
 }
 
-void write_report(const std::string& trials_path, double p_threshold, const ReportInputs& inputs,
-                  const std::string& folder) {
-    const std::vector<Trial> trials = read_trials(trials_path);
-    const std::string source = std::filesystem::path(trials_path).filename().string();
-    const LawFit fit = fit_law(trials, p_threshold, source);
-    const std::string html = report_html(trials, fit, inputs);
+void write_report(const std::string& trials_path, double p_threshold, ReportInputs inputs, const std::string& folder) {
+    const StudyData study = read_study(trials_path);
+    const LawFit fit = fit_law(study.trials, p_threshold, study.source);
+    inputs.observer_kind = study.observer_kind;
+    const std::string html = report_html(study.trials, fit, inputs);
     make_output_folder(folder);
     const std::filesystem::path file = std::filesystem::path(folder) / "report.html";
     write_file(file, html);

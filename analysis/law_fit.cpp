@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "analysis/statistics.h"
 #include "stimuli/error.h"
@@ -78,7 +79,10 @@ struct ConditionKey {
     double contrast;
     KernelShape kernel;
 
-    auto operator<=>(const ConditionKey&) const = default;
+    /// By pattern, then from full contrast down.
+    bool operator<(const ConditionKey& other) const {
+        return std::tuple(pattern, -contrast, kernel) < std::tuple(other.pattern, -other.contrast, other.kernel);
+    }
 };
 
 std::string describe(const ConditionKey& key) {

@@ -118,6 +118,18 @@ std::string contact_sheet_section(const std::string& path) {
            "texel's size.</figcaption></figure>\n";
 }
 
+constexpr std::string_view kRenderingsSection = R"html(<h2>What the law saves</h2>
+<p>{{scene}} with {{technique}} shadows of one filter radius, {{radius}} px on screen, at each size of shadow map. Times are
+medians of one run, in which the sizes took turns frame by frame, on {{gl}}.</p>
+<div class="pair">
+{{pictures}}</div>
+<table>
+<tr><th>map</th><th>texels</th><th>texel on screen, px</th><th>filter</th><th>frame, ms</th><th>depth pass, ms</th><th>lighting, ms</th><th>error</th></tr>
+{{rows}}</table>
+<p>Error: root mean square of visibility (0 to 1) in the penumbra, against the same filter converged on an 8192 × 8192 map.
+A sampled filter takes a few taps a pixel and adds noise; an exact one weighs every texel it covers.</p>
+{{difference}})html";
+
 /// A number of stats.json for people; a dash where it isn't there.
 std::string number_or_dash(const json& object, const std::string& key, int decimals) {
     const auto found = object.find(key);
@@ -141,26 +153,28 @@ std::string renderings_section(const fs::path& stats_path) {
                     "<figcaption>" + escaped(title) + "</figcaption></figure>\n";
         const json errors = r.value("visibility_error", json::object());
         rows += "<tr><td>" + escaped(json_text(r, "resolution", source)) + "</td><td>" + size + "</td><td>" +
-                escaped(json_text(r, "filter", source)) + "</td><td>" + number_or_dash(r, "frame_ms", 1) + "</td><td>" +
-                number_or_dash(r, "depth_ms", 1) + "</td><td>" + number_or_dash(r, "lighting_ms", 1) + "</td><td>" +
+                number_or_dash(r, "texel_px_on_screen", 1) + "</td><td>" + escaped(json_text(r, "filter", source)) +
+                "</td><td>" + number_or_dash(r, "frame_ms", 1) + "</td><td>" + number_or_dash(r, "depth_ms", 1) +
+                "</td><td>" + number_or_dash(r, "lighting_ms", 1) + "</td><td>" +
                 number_or_dash(errors, "penumbra_rmse", 4) + "</td></tr>\n";
     }
     std::string difference;
     if (const auto found = stats.find("difference"); found != stats.end() && found->is_object()) {
-        difference =
-            "<figure>" + embedded_png(stats_path.parent_path() / json_text(*found, "file", source), "difference") +
-            "<figcaption>Difference between the two, × " + number_or_dash(*found, "scale", 0) + ". Root mean square " +
-            number_or_dash(*found, "rmse_levels", 2) + " of 255 levels.</figcaption></figure>\n";
+        difference = "<figure>" +
+                     embedded_png(stats_path.parent_path() / json_text(*found, "file", source), "difference") +
+                     "<figcaption>Difference between the first and the last, × " + number_or_dash(*found, "scale", 0) +
+                     ". Root mean square " + number_or_dash(*found, "rmse_levels", 2) +
+                     " of 255 levels.</figcaption></figure>\n";
     }
-    return "<h2>What the law saves</h2>\n<p>" +
-           escaped(fs::path(json_text(stats, "scene", source)).filename().string()) +
-           " with percentage-closer filtering of one and the same radius, at the fixed size and at the law's. Times "
-           "are medians "
-           "from one run, in which the two took turns, on " +
-           escaped(json_text(stats, "renderer", source)) + ".</p>\n<div class=\"pair\">\n" + pictures + "</div>\n" +
-           "<table>\n<tr><th>map</th><th>size</th><th>filter</th><th>frame, ms</th><th>depth pass</th><th>lighting</th>"
-           "<th>error in the penumbra</th></tr>\n" +
-           rows + "</table>\n" + difference;
+    Page section(kRenderingsSection);
+    section.text("scene", fs::path(json_text(stats, "scene", source)).filename().string())
+        .text("technique", json_text(stats, "technique", source))
+        .text("radius", number_or_dash(stats, "radius_px_on_screen", 1))
+        .text("gl", json_text(stats, "renderer", source))
+        .set("pictures", pictures)
+        .set("rows", rows)
+        .set("difference", difference);
+    return section.html();
 }
 
 }  // namespace
@@ -170,7 +184,8 @@ std::string report_html(const std::vector<Trial>& trials, const LawFit& fit, con
     const Trial& first = trials.front();
     Page page(embedded::report_template_html);
     page.text("study", first.study.empty() ? "A study" : first.study)
-        .text("observers", std::to_string(law.observers))
+        .text("observers", std::to_string(law.observers) + " " + inputs.observer_kind +
+                               (inputs.observer_kind.empty() ? "" : " ") + "observers")
         .text("trials", std::to_string(law.trials))
         .text("slope", format_fixed(law.slope, 2))
         .text("slope_low", format_fixed(law.slope_ci95.first, 2))

@@ -14,6 +14,8 @@ struct ReportInputs {
     std::string contact_sheet;
     /// stats.json of stairstep-render; pictures are looked for beside it.
     std::string render_stats;
+    /// What the observers are, for example "simulated"; empty where that isn't known.
+    std::string observer_kind{};
 };
 
 /// The page as text. Throws InputError for an input that is missing or isn't what it should be, and FailureError where
