@@ -45,21 +45,26 @@ struct ImageJob {
     std::filesystem::path stats;
 };
 
-/// Does the job with OSMesa and returns the statistics; the pictures are written first, each file whole or
-/// not at all. Throws InputError and FailureError. Keys, lengths in world units unless they say px:
-///   program, scene, triangles (without the ground), technique, radius, radius_px_on_screen, renderer,
-///   image_width, image_height, samples, frames light_extent            what the map must span along its two
-///   axes law                     file, kernel, slope, slope_for_box, kernel_converted, texel_range_px truth
-///   with `truth` only: file, and the reference's width, height and taps renderings              one a
-///   resolution:
+/// Does the job with OSMesa and returns the statistics; the pictures are written first, each file whole or not at all.
+/// Throws InputError and FailureError. Lengths are in world units unless they say px; `file` is relative to the
+/// statistics' own file. Keys:
+///
+///   program, scene, technique, renderer, image_width, image_height, samples, frames
+///   triangles                  of the scene, without the ground
+///   radius, radius_px_on_screen
+///   light_extent               what the map must span along its two axes
+///   law                        file, kernel, slope, slope_for_box, kernel_converted, texel_range_px
+///   truth                      with `truth` only: file, and the reference's width, height and taps
+///   difference, speedup        for two or more: the first against the last; the fields of PictureDifference
+///   renderings                 one a resolution:
 ///     resolution, width, height, texels, file
-///     limited_by            fixed, law, screen (texels of a pixel) or largest_size
-///     radius_in_texels, texel_px_on_screen   along the axis with the coarser texels, at the model's centre
-///     extrapolates          whether that texel lies outside the law's range
-///     filter                exact, sampled or none; then `gathers` or `taps`: lookups a pixel
-///     frame_ms, depth_ms, lighting_ms        medians on the CPU's clock; gpu_depth_ms, gpu_lighting_ms the
-///     driver's visibility_error      with `truth` only: the fields of VisibilityError
-///   difference, speedup     for two or more: the first against the last; the fields of PictureDifference
+///     limited_by               fixed, law, screen (texels of a pixel) or largest_size
+///     radius_in_texels, texel_px_on_screen    along the axis with the coarser texels, at the model's centre
+///     extrapolates             whether that texel lies outside the law's range
+///     filter                   exact, sampled or none; then `gathers` or `taps`: lookups a pixel
+///     frame_ms, depth_ms, lighting_ms         medians on the CPU's clock
+///     gpu_depth_ms, gpu_lighting_ms           the driver's
+///     visibility_error         with `truth` only: the fields of VisibilityError
 nlohmann::ordered_json run_image_job(const ImageJob& job);
 
 /// The statistics in a paragraph for people.

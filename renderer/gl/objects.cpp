@@ -30,6 +30,12 @@ Texture make_texture(GLenum format, int width, int height, int levels) {
 
 Texture make_multisample_texture(GLenum format, int width, int height, int samples) {
     require_texture_size(width, height);
+    GLint most = 0;
+    GetIntegerv(GL_MAX_SAMPLES, &most);
+    if (samples > most) {
+        throw FailureError("picture with " + std::to_string(samples) + " samples a pixel", "this driver can't make it",
+                           "use at most " + std::to_string(most));
+    }
     GLuint id = 0;
     CreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &id);
     Texture texture(id);
