@@ -1,9 +1,12 @@
 #include "stimuli/kernel.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
+
+#include "stimuli/random.h"
 
 namespace stairstep {
 namespace {
@@ -43,6 +46,10 @@ double axis_deviation(KernelShape shape) {
     return 0;
 }
 
+double support(KernelShape shape) {
+    return shape == KernelShape::gaussian ? 1.5 : 1;
+}
+
 std::vector<KernelTap> box_taps(int side) {
     assert(side >= 1);
     std::vector<KernelTap> taps;
@@ -54,6 +61,38 @@ std::vector<KernelTap> box_taps(int side) {
         }
     }
     return taps;
+}
+
+std::vector<KernelTap> poisson_taps(int count, uint64_t seed) {
+    assert(count >= 1 && count <= kMostTaps);
+    // A hexagonal packing of `count` points of this distance would fill the disk: no set has a larger one.
+    double distance = std::sqrt(2 * std::numbers::pi / (std::sqrt(3.0) * count));
+    constexpr int kDartsPerTap = 200;
+    Random random(seed);
+    std::vector<KernelTap> taps;
+    while (static_cast<int>(taps.size()) < count) {
+        int darts = kDartsPerTap;
+        while (darts > 0 && static_cast<int>(taps.size()) < count) {
+            const auto x = static_cast<float>(2 * random.uniform() - 1);
+            const auto y = static_cast<float>(2 * random.uniform() - 1);
+            if (x * x + y * y > 1) continue;
+            --darts;
+            const bool is_free = std::none_of(taps.begin(), taps.end(), [&](const KernelTap& tap) {
+                return (tap.x - x) * (tap.x - x) + (tap.y - y) * (tap.y - y) < distance * distance;
+            });
+            if (is_free) {
+                taps.push_back({x, y, 1.0f / static_cast<float>(count)});
+                darts = kDartsPerTap;
+            }
+        }
+        distance *= 0.97;
+    }
+    return taps;
+}
+
+double rotation_at(int column, int row, uint64_t seed) {
+    const auto place = static_cast<uint64_t>(static_cast<uint32_t>(column)) << 32 | static_cast<uint32_t>(row);
+    return 2 * std::numbers::pi * Random(seed).stream(place).uniform();
 }
 
 }  // namespace stairstep

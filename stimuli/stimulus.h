@@ -16,9 +16,9 @@ enum class StepReference { sloped, horizontal };
 std::string_view name(StepReference reference);
 
 struct Stimulus {
-    /// step or stair: an artifact; line: the same silhouette without one.
+    /// step, stair or slope: an artifact; line: the same silhouette without one.
     Pattern pattern = Pattern::step;
-    /// step or stair: for a line, whose silhouette it is; for an artifact, its own pattern.
+    /// step, stair or slope: for a line, whose silhouette it is; for an artifact, its own pattern.
     Pattern silhouette = Pattern::step;
     /// Side of a shadow-map texel on screen, px, > 0 (the artifact size a).
     double texel_px = 10;
@@ -28,6 +28,10 @@ struct Stimulus {
     int width_px = 640;
     int height_px = 480;
     StepReference step_reference = StepReference::sloped;
+    /// m ≥ 0 of the silhouette y = m·x, for the pattern slope alone.
+    double slope = 0;
+    /// Where the texel grid lies, in texels; 0 is the pattern's own place. Lines have no grid and ignore it.
+    Phase phase{};
 };
 
 /// Width and height lie in [1, kLargestSide] px: 16,384² is 2.1 GB as doubles, and GL textures end there too.
@@ -42,7 +46,8 @@ Edge edge_of(const Stimulus& stimulus);
 /// Centre of pixel column i, row j (row 0 on top) in the image frame.
 Point pixel_centre(const Stimulus& stimulus, int column, int row);
 
-/// Luminance C·V of every pixel at its centre, row by row from the top; width × height values in [0, C].
+/// Luminance C·V of every pixel at its centre, row by row from the top; width × height values in [0, C]. Pixels that the
+/// edge's symmetry makes equal are computed once.
 std::vector<double> luminance(const Stimulus& stimulus);
 
 /// Nearest 8-bit level of a luminance in [0, 1]; ties go up.
