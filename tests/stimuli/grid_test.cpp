@@ -30,6 +30,23 @@ TEST(StimulusGrid, LineMeansTheLineOfWhatIsListed) {
     EXPECT_TRUE(std::any_of(both.begin(), both.end(), [](auto& s) { return s.silhouette == Pattern::stair; }));
 }
 
+TEST(StimulusGrid, SlopesAndPhasesMultiplySampledPatternsAlone) {
+    StimulusGrid grid;
+    grid.patterns = {Pattern::slope, Pattern::line};
+    grid.slopes = {0.25, 0.5};
+    grid.phases = {{0, 0}, {0.25, 0}, {0.5, 0.5}};
+    grid.texels_px = {10};
+    grid.radii_px = {35};
+    grid.contrasts = {1};
+    const std::vector<Stimulus> stimuli = stimuli_of(grid);
+    EXPECT_EQ(stimuli.size(), 2u * 3u + 2u);
+    std::set<std::string> stems;
+    for (const Stimulus& s : stimuli) stems.insert(file_stem(s));
+    EXPECT_EQ(stems.size(), stimuli.size());
+    grid.slopes.clear();
+    EXPECT_THROW(stimuli_of(grid), InputError);
+}
+
 TEST(StimulusGrid, RefusesEmptyAxesRepeatsAndBadValues) {
     StimulusGrid empty;
     empty.radii_px.clear();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stairstep {
@@ -47,6 +48,46 @@ TEST(Kernel, BoxTapsHaveUnitMassAndLieInTheBoxSymmetrically) {
         EXPECT_NEAR(x, 0, 1e-6);
         EXPECT_NEAR(y, 0, 1e-6);
     }
+}
+
+TEST(Kernel, PoissonTapsAreAsManyAsAskedInsideTheDiskAndSpread) {
+    for (const int count : {1, 2, 9, 25, 64, 333}) {
+        for (const uint64_t seed : {1u, 2u, 99u}) {
+            const std::vector<KernelTap> taps = poisson_taps(count, seed);
+            ASSERT_EQ(static_cast<int>(taps.size()), count);
+            double mass = 0;
+            double closest = 4;
+            for (size_t i = 0; i < taps.size(); ++i) {
+                mass += taps[i].weight;
+                EXPECT_LE(std::hypot(taps[i].x, taps[i].y), 1);
+                for (size_t j = 0; j < i; ++j) {
+                    closest = std::min<double>(closest, std::hypot(taps[i].x - taps[j].x, taps[i].y - taps[j].y));
+                }
+            }
+            EXPECT_NEAR(mass, 1, 1e-5);
+            // Random points would come as near as 1/count; a relaxed set keeps more than half the densest packing's distance.
+            EXPECT_GT(closest, count == 1 ? 0 : 0.5 * std::sqrt(2 * 3.14159 / (std::sqrt(3.0) * count))) << count;
+        }
+    }
+}
+
+TEST(Kernel, PoissonTapsAreTheSameForTheSameSeedOnly) {
+    const auto first = [](uint64_t seed) { return poisson_taps(25, seed).front().x; };
+    EXPECT_EQ(first(1), first(1));
+    EXPECT_NE(first(1), first(2));
+}
+
+TEST(Kernel, RotationsAreSpreadOverTheCircle) {
+    double c = 0, s = 0;
+    constexpr int kSide = 100;
+    for (int row = 0; row < kSide; ++row) {
+        for (int column = 0; column < kSide; ++column) {
+            c += std::cos(rotation_at(column, row, 1)) / (kSide * kSide);
+            s += std::sin(rotation_at(column, row, 1)) / (kSide * kSide);
+        }
+    }
+    EXPECT_LT(std::hypot(c, s), 0.03);  // of 10,000 random directions: mean length .0089
+    EXPECT_NE(rotation_at(1, 2, 1), rotation_at(2, 1, 1));
 }
 
 }  // namespace

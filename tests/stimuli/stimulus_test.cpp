@@ -6,6 +6,7 @@
 #include <set>
 
 #include "stimuli/error.h"
+#include "stimuli/visibility.h"
 
 namespace stairstep {
 namespace {
@@ -90,6 +91,34 @@ TEST(Stimulus, RefusesValuesOutOfRange) {
         Stimulus bad;
         spoil(bad);
         EXPECT_THROW(require_valid(bad), InputError);
+    }
+}
+
+TEST(Stimulus, WhatSymmetryCopiesIsWhatThePointwiseFilterGives) {
+    for (const Pattern pattern : {Pattern::stair, Pattern::line, Pattern::step, Pattern::slope}) {
+        for (const KernelShape shape :
+             {KernelShape::box, KernelShape::disk, KernelShape::gaussian, KernelShape::poisson}) {
+            for (const double texel : {5.0, 7.5, 40.0}) {
+                const Stimulus s{.pattern = pattern,
+                                 .silhouette = pattern == Pattern::line ? Pattern::stair : pattern,
+                                 .texel_px = texel,
+                                 .kernel = {.shape = shape, .radius_px = 17.5, .rotated = texel == 40},
+                                 .contrast = 0.5,
+                                 .width_px = 61,
+                                 .height_px = 48,
+                                 .slope = 1,
+                                 .phase = {0.25, 0.5}};
+                const std::vector<double> pixels = luminance(s);
+                const Filter filter(s.kernel);
+                for (int row = 0; row < 48; ++row) {
+                    for (int column = 0; column < 61; ++column) {
+                        const double rotation = s.kernel.rotated ? rotation_at(column, row, s.kernel.seed) : 0;
+                        const double v = filter.visibility(edge_of(s), pixel_centre(s, column, row), rotation);
+                        ASSERT_NEAR(pixels[row * 61 + column], 0.5 * v, 1e-13) << file_stem(s) << column << "," << row;
+                    }
+                }
+            }
+        }
     }
 }
 
