@@ -1,26 +1,11 @@
 #include "stimuli/stimulus.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "stimuli/error.h"
 #include "stimuli/number.h"
-#include "stimuli/visibility.h"
 
 namespace stairstep {
-namespace {
-
-/// The least number of pixels by which the picture, moved right and up alike, falls onto itself: for edges at 45° a whole
-/// number of texels. 0 where there is none.
-int repeats_every(const Edge& edge, const Kernel& kernel) {
-    const bool rotated = kernel.shape == KernelShape::poisson && kernel.rotated;
-    if (rotated || edge.slope() != 1) return 0;
-    if (edge.pattern() == Pattern::line) return 1;
-    const double texel = edge.texel_px();
-    return texel <= kLargestSide && texel == std::floor(texel) ? static_cast<int>(texel) : 0;
-}
-
-}  // namespace
 
 std::string_view name(StepReference reference) {
     return reference == StepReference::sloped ? "sloped" : "horizontal";
@@ -71,32 +56,8 @@ Point pixel_centre(const Stimulus& stimulus, int column, int row) {
     return {column + 0.5 - stimulus.width_px / 2.0, stimulus.height_px / 2.0 - row - 0.5};
 }
 
-std::vector<double> luminance(const Stimulus& stimulus) {
-    require_valid(stimulus);
-    const Edge edge = edge_of(stimulus);
-    const Filter filter(stimulus.kernel);
-    const size_t width = static_cast<size_t>(stimulus.width_px);
-    std::vector<double> pixels(width * stimulus.height_px);
-    const int period = repeats_every(edge, stimulus.kernel);
-    const bool rotated = stimulus.kernel.shape == KernelShape::poisson && stimulus.kernel.rotated;
-    for (int row = stimulus.height_px - 1; row >= 0; --row) {
-        double* line = &pixels[row * width];
-        int computed = stimulus.width_px;
-        if (period > 0 && row + period < stimulus.height_px) {
-            // One period right and one up, the picture is the same.
-            computed = std::min(period, stimulus.width_px);
-            std::copy_n(&pixels[(row + period) * width], stimulus.width_px - computed, line + computed);
-        }
-        for (int column = 0; column < computed; ++column) {
-            const double rotation = rotated ? rotation_at(column, row, stimulus.kernel.seed) : 0;
-            line[column] = stimulus.contrast * filter.visibility(edge, pixel_centre(stimulus, column, row), rotation);
-        }
-    }
-    return pixels;
-}
-
 int level_8bit(double luminance) {
-    return static_cast<int>(std::floor(luminance * 255 + 0.5));
+    return static_cast<int>(std::floor(luminance * 255 + 0.5 + 1e-9));
 }
 
 std::string file_stem(const Stimulus& stimulus) {

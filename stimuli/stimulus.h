@@ -46,11 +46,12 @@ Edge edge_of(const Stimulus& stimulus);
 /// Centre of pixel column i, row j (row 0 on top) in the image frame.
 Point pixel_centre(const Stimulus& stimulus, int column, int row);
 
-/// Luminance C·V of every pixel at its centre, row by row from the top; width × height values in [0, C]. Pixels that the
-/// edge's symmetry makes equal are computed once.
+/// Luminance C·V of every pixel at its centre, row by row from the top; width × height values in [0, C]. `draw` (draw.h)
+/// makes pixels of other kinds, faster.
 std::vector<double> luminance(const Stimulus& stimulus);
 
-/// Nearest 8-bit level of a luminance in [0, 1]; ties go up.
+/// Nearest 8-bit level of a luminance in [0, 1]. Ties go up, and what lies within 10⁻⁹ of one is a tie: half a luminance of 1
+/// is level 128 wherever rounding left the visibility at 1 − 10⁻¹⁶.
 int level_8bit(double luminance);
 
 /// A name that tells the stimulus apart, without extension: "step_box_a10_r35_c1", "line-of-stair_box_…".

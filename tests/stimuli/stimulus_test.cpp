@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "stimuli/draw.h"
 #include "stimuli/error.h"
 #include "stimuli/visibility.h"
 
@@ -109,12 +110,15 @@ TEST(Stimulus, WhatSymmetryCopiesIsWhatThePointwiseFilterGives) {
                                  .slope = 1,
                                  .phase = {0.25, 0.5}};
                 const std::vector<double> pixels = luminance(s);
+                const std::vector<uint8_t> levels = draw<uint8_t>(s, level_8bit);
                 const Filter filter(s.kernel);
                 for (int row = 0; row < 48; ++row) {
                     for (int column = 0; column < 61; ++column) {
                         const double rotation = s.kernel.rotated ? rotation_at(column, row, s.kernel.seed) : 0;
                         const double v = filter.visibility(edge_of(s), pixel_centre(s, column, row), rotation);
                         ASSERT_NEAR(pixels[row * 61 + column], 0.5 * v, 1e-13) << file_stem(s) << column << "," << row;
+                        ASSERT_EQ(levels[row * 61 + column], level_8bit(0.5 * v))
+                            << file_stem(s) << column << "," << row;
                     }
                 }
             }

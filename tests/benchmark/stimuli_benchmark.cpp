@@ -1,0 +1,80 @@
+// Computing a stimulus against encoding it: 640 × 480 px, one thread each. The counter `encode/compute` is the ratio of
+// the two times in this run; `levels` is luminance and rounding to 8 bits, which is what a PNG needs.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <string>
+
+#include "stimuli/draw.h"
+
+namespace stairstep {
+namespace {
+
+std::vector<uint8_t> levels_of(const Stimulus& stimulus) {
+    return draw<uint8_t>(stimulus, level_8bit);
+}
+
+size_t encode(const Stimulus& stimulus, const std::vector<uint8_t>& levels) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto writer = OIIO::ImageOutput::create("png");
+    writer->set_ioproxy(&memory);
+    OIIO::ImageSpec spec(stimulus.width_px, stimulus.height_px, 1, OIIO::TypeDesc::UINT8);
+    writer->open("stimulus.png", spec);
+    writer->write_image(OIIO::TypeDesc::UINT8, levels.data());
+    writer->close();
+    return bytes.size();
+}
+
+template <typename Work>
+double seconds(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void compute_against_encode(benchmark::State& state, const Stimulus& stimulus) {
+    double computing = 0;
+    double encoding = 0;
+    for ([[maybe_unused]] auto iteration : state) {
+        std::vector<uint8_t> levels;
+        const double took = seconds([&] { levels = levels_of(stimulus); });
+        computing += took;
+        encoding += seconds([&] { benchmark::DoNotOptimize(encode(stimulus, levels)); });
+        state.SetIterationTime(took);
+    }
+    state.counters["encode/compute"] = encoding / computing;
+}
+
+void register_all() {
+    for (const KernelShape shape : {KernelShape::box, KernelShape::disk, KernelShape::gaussian}) {
+        for (const Pattern pattern : {Pattern::step, Pattern::stair, Pattern::line}) {
+            for (const Pattern silhouette : {Pattern::step, Pattern::stair}) {
+                if (pattern != Pattern::line && pattern != silhouette) continue;
+                for (const double texel : {5.0, 30.0}) {
+                    for (const double radius : {texel, 3.47 * texel, 105.0}) {
+                        const Stimulus stimulus{
+                            .pattern = pattern, .silhouette = silhouette, .texel_px = texel, .kernel = {shape, radius}};
+                        benchmark::RegisterBenchmark(("levels/" + file_stem(stimulus)).c_str(), compute_against_encode,
+                                                     stimulus)
+                            ->UseManualTime()
+                            ->Unit(benchmark::kMillisecond);
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stairstep
+
+int main(int argc, char** argv) {
+    stairstep::register_all();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
