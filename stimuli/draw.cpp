@@ -1,16 +1,28 @@
 #include "stimuli/draw.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stairstep {
 namespace {
 
-/// For edges at 45° a whole number of texels that is a whole number of pixels.
-int period_of(const Edge& edge, bool rotated) {
-    if (rotated || edge.slope() != 1) return 0;
-    if (edge.pattern() == Pattern::line) return 1;
-    const double texel = edge.texel_px();
-    return texel <= kLargestSide && texel == std::floor(texel) ? static_cast<int>(texel) : 0;
+bool is_whole(double value) {
+    return std::abs(value - std::round(value)) < 1e-12 * std::max(1.0, std::abs(value));
+}
+
+/// A line may move by whole pixels along itself, a staircase only by whole texels: in both, where the slope is rational.
+Translation period_of(const Edge& edge, const Kernel& kernel, int width_px) {
+    const bool rotated = kernel.shape == KernelShape::poisson && kernel.rotated;
+    if (rotated || edge.slope() == 0) return {};
+    const double unit = edge.pattern() == Pattern::line ? 1 : edge.texel_px();
+    for (int units = 1; units * unit < width_px; ++units) {
+        const double right = units * unit;
+        const double up = units * edge.slope();  // in units
+        if (is_whole(right) && is_whole(up) && is_whole(up * unit)) {
+            return {static_cast<int>(std::lround(right)), static_cast<int>(std::lround(up * unit))};
+        }
+    }
+    return {};
 }
 
 const Stimulus& validated(const Stimulus& stimulus) {
@@ -25,7 +37,7 @@ StimulusSampler::StimulusSampler(const Stimulus& stimulus)
       edge_(edge_of(stimulus)),
       filter_(stimulus.kernel),
       rotated_(stimulus.kernel.shape == KernelShape::poisson && stimulus.kernel.rotated),
-      period_(period_of(edge_, rotated_)) {}
+      period_(period_of(edge_, stimulus.kernel, stimulus.width_px)) {}
 
 double StimulusSampler::luminance(int column, int row) const {
     const double rotation = rotated_ ? rotation_at(column, row, stimulus_.kernel.seed) : 0;

@@ -1,8 +1,8 @@
 // Drawing a stimulus pixel by pixel, each value computed no more often than it must be.
 //
 // Two things are true of every edge that never falls. Along a row visibility never rises from left to right, so where a
-// row's two ends have the same value, all between have it too: a row is halved until its parts are flat. And an edge at 45°
-// falls onto itself when it moves right and up by a texel, so most of the picture is a copy. Neither needs to know the
+// row's two ends have the same value, all between have it too: a row is halved until its parts are flat. And an edge of
+// rational slope falls onto itself when it moves along itself, so most of the picture is a copy. Neither needs to know the
 // kernel.
 #pragma once
 
@@ -14,6 +14,12 @@
 
 namespace stairstep {
 
+/// A translation in pixels, right and up.
+struct Translation {
+    int right = 0;
+    int up = 0;
+};
+
 /// The exact value of single pixels of a stimulus.
 class StimulusSampler {
   public:
@@ -23,8 +29,9 @@ class StimulusSampler {
     /// C·V at the centre of a pixel, in [0, C].
     double luminance(int column, int row) const;
 
-    /// The least number of pixels by which the picture, moved right and up alike, falls onto itself; 0 where there is none.
-    int period() const { return period_; }
+    /// The least translation by whole pixels under which the picture falls onto itself; {0, 0} where there is none within
+    /// its width.
+    Translation period() const { return period_; }
 
     /// Whether values never rise along a row; not so where each pixel turns the kernel by its own angle.
     bool falls_along_rows() const { return !rotated_; }
@@ -34,7 +41,7 @@ class StimulusSampler {
     Edge edge_;
     Filter filter_;
     bool rotated_;
-    int period_;
+    Translation period_;
 };
 
 /// Fills row[begin … end − 1], whose first and last pixel are there already, by halves.
@@ -59,15 +66,15 @@ std::vector<Pixel> draw(const Stimulus& stimulus, const Quantise& quantise) {
     const StimulusSampler sampler(stimulus);
     const int width = stimulus.width_px;
     const int height = stimulus.height_px;
-    const int period = sampler.period();
+    const Translation period = sampler.period();
     std::vector<Pixel> pixels(static_cast<size_t>(width) * height);
-    // From the bottom up: the row a period below is there to copy from.
+    // From the bottom up, so that the row to copy from is there already.
     for (int row = height - 1; row >= 0; --row) {
         Pixel* line = &pixels[static_cast<size_t>(row) * width];
         int fresh = width;
-        if (period > 0 && period < width && row + period < height) {
-            fresh = period;
-            std::copy_n(line + static_cast<size_t>(period) * width, width - period, line + period);
+        if (period.up > 0 && row + period.up < height) {
+            fresh = period.right;
+            std::copy_n(line + static_cast<size_t>(period.up) * width, width - fresh, line + fresh);
         }
         const auto pixel_at = [&](int column) { return static_cast<Pixel>(quantise(sampler.luminance(column, row))); };
         if (sampler.falls_along_rows()) {

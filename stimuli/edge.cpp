@@ -1,7 +1,6 @@
 #include "stimuli/edge.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "stimuli/error.h"
@@ -57,44 +56,6 @@ Edge Edge::sampled(double slope, double texel_px, Phase phase) {
 Edge Edge::line(double slope) {
     require_slope(slope);
     return Edge(Pattern::line, 0, slope, {});
-}
-
-double Edge::height(double x) const {
-    return pattern_ == Pattern::line ? slope_ * x : column_height(column(x));
-}
-
-double Edge::column(double x) const {
-    // A step has two columns, −1 and 0, that meet where it stands.
-    if (pattern_ == Pattern::step) return x < phase_.x * texel_px_ ? -1 : 0;
-    return std::floor(x / texel_px_ - phase_.x + 0.5);
-}
-
-double Edge::column_height(double column) const {
-    if (pattern_ == Pattern::step) return ((column < 0 ? -0.5 : 0.5) + phase_.y) * texel_px_;
-    return (std::ceil(slope_ * (column + phase_.x) - phase_.y - 0.5) + phase_.y) * texel_px_;
-}
-
-double Edge::column_begin(double column) const {
-    if (pattern_ == Pattern::step) {
-        return column < 0   ? -std::numeric_limits<double>::infinity()
-               : column > 0 ? std::numeric_limits<double>::infinity()
-                            : phase_.x * texel_px_;
-    }
-    return (column + phase_.x - 0.5) * texel_px_;
-}
-
-Point Edge::localised(Point p) const {
-    switch (pattern_) {
-        case Pattern::step:
-        case Pattern::slope: return p;
-        case Pattern::stair: {
-            // A stair maps onto itself when it moves by whole texels along its diagonal.
-            const double shift = column(p.x) * texel_px_;
-            return {p.x - shift, p.y - shift};
-        }
-        case Pattern::line: return {0, p.y - slope_ * p.x};
-    }
-    return p;
 }
 
 }  // namespace stairstep

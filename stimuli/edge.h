@@ -8,6 +8,8 @@
 //   h_k = a·(⌈m·(k + φx) − φy − ½⌉ + φy)
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <string_view>
 
 namespace stairstep {
@@ -73,5 +75,36 @@ class Edge {
     /// φ, the pattern's own included.
     Phase phase_;
 };
+
+// Inline: a picture asks for millions of these.
+
+inline double Edge::column(double x) const {
+    // A step has two columns, −1 and 0, that meet where it stands.
+    if (pattern_ == Pattern::step) return x < phase_.x * texel_px_ ? -1 : 0;
+    return std::floor(x / texel_px_ - phase_.x + 0.5);
+}
+
+inline double Edge::column_height(double column) const {
+    if (pattern_ == Pattern::step) return ((column < 0 ? -0.5 : 0.5) + phase_.y) * texel_px_;
+    return (std::ceil(slope_ * (column + phase_.x) - phase_.y - 0.5) + phase_.y) * texel_px_;
+}
+
+inline double Edge::column_begin(double column) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (pattern_ == Pattern::step) return column < 0 ? -kInfinity : column > 0 ? kInfinity : phase_.x * texel_px_;
+    return (column + phase_.x - 0.5) * texel_px_;
+}
+
+inline double Edge::height(double x) const {
+    return pattern_ == Pattern::line ? slope_ * x : column_height(column(x));
+}
+
+inline Point Edge::localised(Point p) const {
+    if (pattern_ == Pattern::line) return {0, p.y - slope_ * p.x};
+    if (pattern_ != Pattern::stair) return p;
+    // A stair maps onto itself when it moves by whole texels along its diagonal.
+    const double shift = column(p.x) * texel_px_;
+    return {p.x - shift, p.y - shift};
+}
 
 }  // namespace stairstep

@@ -95,35 +95,59 @@ TEST(Stimulus, RefusesValuesOutOfRange) {
     }
 }
 
+/// Compares a stimulus drawn by halves and copies with the filter pixel by pixel.
+void expect_pointwise(const Stimulus& s) {
+    const std::vector<double> pixels = luminance(s);
+    const std::vector<uint8_t> levels = draw<uint8_t>(s, level_8bit);
+    const Filter filter(s.kernel);
+    for (int row = 0; row < s.height_px; ++row) {
+        for (int column = 0; column < s.width_px; ++column) {
+            const bool rotated = s.kernel.shape == KernelShape::poisson && s.kernel.rotated;
+            const double rotation = rotated ? rotation_at(column, row, s.kernel.seed) : 0;
+            const double v = filter.visibility(edge_of(s), pixel_centre(s, column, row), rotation);
+            const size_t i = static_cast<size_t>(row) * s.width_px + column;
+            ASSERT_NEAR(pixels[i], s.contrast * v, 1e-13) << file_stem(s) << " at " << column << ", " << row;
+            ASSERT_EQ(levels[i], level_8bit(s.contrast * v)) << file_stem(s) << " at " << column << ", " << row;
+        }
+    }
+}
+
 TEST(Stimulus, WhatSymmetryCopiesIsWhatThePointwiseFilterGives) {
     for (const Pattern pattern : {Pattern::stair, Pattern::line, Pattern::step, Pattern::slope}) {
-        for (const KernelShape shape :
-             {KernelShape::box, KernelShape::disk, KernelShape::gaussian, KernelShape::poisson}) {
-            for (const double texel : {5.0, 7.5, 40.0}) {
-                const Stimulus s{.pattern = pattern,
-                                 .silhouette = pattern == Pattern::line ? Pattern::stair : pattern,
-                                 .texel_px = texel,
-                                 .kernel = {.shape = shape, .radius_px = 17.5, .rotated = texel == 40},
-                                 .contrast = 0.5,
-                                 .width_px = 61,
-                                 .height_px = 48,
-                                 .slope = 1,
-                                 .phase = {0.25, 0.5}};
-                const std::vector<double> pixels = luminance(s);
-                const std::vector<uint8_t> levels = draw<uint8_t>(s, level_8bit);
-                const Filter filter(s.kernel);
-                for (int row = 0; row < 48; ++row) {
-                    for (int column = 0; column < 61; ++column) {
-                        const double rotation = s.kernel.rotated ? rotation_at(column, row, s.kernel.seed) : 0;
-                        const double v = filter.visibility(edge_of(s), pixel_centre(s, column, row), rotation);
-                        ASSERT_NEAR(pixels[row * 61 + column], 0.5 * v, 1e-13) << file_stem(s) << column << "," << row;
-                        ASSERT_EQ(levels[row * 61 + column], level_8bit(0.5 * v))
-                            << file_stem(s) << column << "," << row;
+        for (const Pattern silhouette : {Pattern::step, Pattern::stair, Pattern::slope}) {
+            if (pattern != Pattern::line && pattern != silhouette) continue;
+            for (const KernelShape shape :
+                 {KernelShape::box, KernelShape::disk, KernelShape::gaussian, KernelShape::poisson}) {
+                for (const double texel : {4.0, 5.0, 7.5, 40.0}) {
+                    for (const double slope : {0.5, 1.0, 0.37, 1.5}) {
+                        if (silhouette != Pattern::slope && slope != 1) continue;
+                        expect_pointwise({.pattern = pattern,
+                                          .silhouette = silhouette,
+                                          .texel_px = texel,
+                                          .kernel = {.shape = shape, .radius_px = 17.5, .rotated = texel == 40},
+                                          .contrast = 0.5,
+                                          .width_px = 60,
+                                          .height_px = 48,
+                                          .slope = slope,
+                                          .phase = {0.25, 0.5}});
                     }
                 }
             }
         }
     }
+}
+
+TEST(Stimulus, EdgesOfRationalSlopeRepeat) {
+    const auto period = [](const Stimulus& s) {
+        const Translation t = StimulusSampler(s).period();
+        return std::pair(t.right, t.up);
+    };
+    EXPECT_EQ(period({.pattern = Pattern::line, .texel_px = 30, .width_px = 640}), std::pair(64, 3));
+    EXPECT_EQ(period({.pattern = Pattern::stair, .silhouette = Pattern::stair, .texel_px = 20}), std::pair(20, 20));
+    EXPECT_EQ(period({.pattern = Pattern::stair, .silhouette = Pattern::stair, .texel_px = 7.5}), std::pair(15, 15));
+    EXPECT_EQ(period({.pattern = Pattern::slope, .silhouette = Pattern::slope, .texel_px = 10, .slope = 0.5}),
+              std::pair(20, 10));
+    EXPECT_EQ(period({.pattern = Pattern::step, .texel_px = 10}), std::pair(0, 0));
 }
 
 }  // namespace
