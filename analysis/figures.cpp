@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "analysis/gnuplot.h"
 #include "analysis/statistics.h"
+#include "stimuli/io/gnuplot.h"
 #include "stimuli/number.h"
 
 namespace stairstep {

@@ -1,4 +1,4 @@
-#include "analysis/gnuplot.h"
+#include "stimuli/io/gnuplot.h"
 
 #include <cstdlib>
 #include <filesystem>
