@@ -65,7 +65,9 @@ BatchSummary write_batch(const std::vector<Stimulus>& stimuli, const Batch& batc
             if (batch.resume && stored_description(path) == text) {
                 ++kept;
             } else {
-                write_stored_image(path, encode(part[i], luminance_of(part[i]), encoding), text);
+                // The luminances go before the file's bytes come.
+                const StoredImage image = encode(part[i], luminance_of(part[i]), encoding);
+                write_stored_image(path, image, text);
             }
             progress.advance();
         });

@@ -1,8 +1,8 @@
 // Writes many stimuli as images with their manifest, on several threads, and goes on where a killed run ended.
 //
 // An image's name appears by renaming alone (output_file.h), so an image that exists is whole, and its description says
-// whether it is the one wanted. Files hold no time and no trace of threads: a run that was killed and resumed leaves the
-// same bytes as one that was not.
+// whether it is the one wanted. Files hold no time and no trace of threads: a run that was killed and resumed leaves
+// the same bytes as one that was not.
 #pragma once
 
 #include <filesystem>

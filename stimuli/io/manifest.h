@@ -29,8 +29,8 @@ void require_valid(const Rendition& rendition);
 /// The image file of a stimulus, relative to the manifest: its stem and the format's extension.
 std::string image_file_name(const Stimulus& stimulus, ImageFormat format);
 
-/// The description that the image carries: "pattern=step;kernel=box;…;pixels_per_degree=", all of the manifest's columns
-/// but the file name.
+/// The description that the image carries: "pattern=step;kernel=box;…;pixels_per_degree=", all of the manifest's
+/// columns but the file name.
 std::string description(const Stimulus& stimulus, const Rendition& rendition);
 
 /// Writes the manifest: file, the columns of a stimulus (stimulus_table.h), then source, transfer, bits, dither,

@@ -29,8 +29,8 @@ class OutputFile {
     bool committed_ = false;
 };
 
-/// Whose partial file a file name is: the stem of the final name, as a process leaves it that was killed before it could
-/// commit. nullopt for any other name.
+/// Whose partial file a file name is: the stem of the final name, as a process leaves it that was killed before it
+/// could commit. nullopt for any other name.
 std::optional<std::string> partial_file_stem(const std::string& file_name);
 
 /// Writes text as a whole file. Throws FailureError.

@@ -20,8 +20,8 @@ struct StoredImage {
     bool operator==(const StoredImage&) const = default;
 };
 
-/// Writes a .png or .tif of 8 or 16 bits or an .exr of 32, by the path's extension, whole or not at all. The description
-/// becomes the file's ImageDescription. The same arguments always give the same bytes: no time is stored.
+/// Writes a .png or .tif of 8 or 16 bits or an .exr of 32, by the path's extension, whole or not at all. The
+/// description becomes the file's ImageDescription. The same arguments always give the same bytes: no time is stored.
 /// Throws FailureError.
 void write_stored_image(const std::filesystem::path& path, const StoredImage& image, const std::string& description);
 

@@ -26,9 +26,9 @@ struct Verification {
     std::vector<ImageFault> faults;
 };
 
-/// Compares every image that folder/stimuli.csv lists, on `jobs` threads (0: one a core). `luminance_by` gives a source's
-/// luminances by its name and throws InputError for an unknown one. Throws InputError for a manifest that is missing or
-/// no manifest.
+/// Compares every image that folder/stimuli.csv lists, on `jobs` threads (0: one a core). `luminance_by` gives a
+/// source's luminances by its name and throws InputError for an unknown one. Throws InputError for a manifest that is
+/// missing or no manifest.
 Verification verify(const std::filesystem::path& folder, int jobs,
                     const std::function<LuminanceOf(const std::string& source)>& luminance_by);
 
