@@ -1,26 +1,21 @@
-// stairstep-stimuli: writes a grid of stimuli as images with a manifest.
+// stairstep-stimuli: writes a grid of stimuli as images with a manifest, and checks such a folder.
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <exception>
-#include <filesystem>
-#include <mutex>
-#include <set>
-#include <thread>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "stimuli/error.h"
 #include "stimuli/grid.h"
+#include "stimuli/io/batch.h"
 #include "stimuli/io/contact_sheet.h"
 #include "stimuli/io/image_file.h"
-#include "stimuli/io/manifest.h"
-#include "stimuli/io/output_file.h"
 #include "stimuli/io/program.h"
-#include "stimuli/io/progress.h"
+#include "stimuli/io/transfer_file.h"
+#include "stimuli/io/verification.h"
 #include "stimuli/number.h"
 
 namespace stairstep {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The command line as given.
 struct Options {
@@ -29,23 +24,62 @@ struct Options {
     std::string radii = "0,5,10,20,35,50,70,105";
     std::string kernels = "box";
     std::string contrasts = "1,0.5";
+    std::string phases = "0:0";
+    Kernel poisson{KernelShape::poisson};
     std::string size = "640x480";
     std::string step_reference = "sloped";
+    std::string grid_file;
+    std::string source = "exact";
+    std::string format = "png";
+    std::optional<int> bits;
+    std::string transfer = "linear";
+    std::string dither = "none";
+    std::optional<double> pixels_per_degree;
     std::string out;
     std::string contact_sheet;
     int jobs = 0;
+    std::string shard = "1/1";
+    bool resume = false;
 };
 
-Pattern pattern_named(const std::string& text) {
-    for (const Pattern pattern : {Pattern::step, Pattern::stair, Pattern::line}) {
-        if (name(pattern) == text) return pattern;
+struct VerifyOptions {
+    std::string folder;
+    int jobs = 0;
+    bool json = false;
+};
+
+/// Adds "step", "stair", "line" or "slope=0.3" to a grid.
+void add_pattern(StimulusGrid& grid, const std::string& text) {
+    if (text.starts_with("slope=")) {
+        const auto slope = parse_number(text.substr(6));
+        if (!slope) throw InputError("--pattern", "\"" + text + "\" names no slope", "write for example slope=0.3");
+        if (grid.slopes.empty()) grid.patterns.push_back(Pattern::slope);
+        grid.slopes.push_back(*slope);
+        return;
     }
-    throw InputError("--pattern", "\"" + text + "\" is no pattern", "use step, stair or line");
+    for (const Pattern pattern : {Pattern::step, Pattern::stair, Pattern::line}) {
+        if (name(pattern) == text) return grid.patterns.push_back(pattern);
+    }
+    throw InputError("--pattern", "\"" + text + "\" is no pattern", "use step, stair, slope=0.3 or line");
 }
 
 KernelShape kernel_named(const std::string& text) {
     if (const auto shape = kernel_shape_named(text)) return *shape;
-    throw InputError("--kernel", "\"" + text + "\" is no kernel", "use box");
+    throw InputError("--kernel", "\"" + text + "\" is no kernel", "use box, disk, gaussian or poisson");
+}
+
+/// "0:0,0.25:0.5": pairs of texels right and up.
+std::vector<Phase> parse_phases(const std::string& text) {
+    std::vector<Phase> phases;
+    for (const std::string& pair : split(text, ',')) {
+        const std::vector<std::string> parts = split(pair, ':');
+        const auto x = parts.size() == 2 ? parse_number(parts[0]) : std::nullopt;
+        const auto y = parts.size() == 2 ? parse_number(parts[1]) : std::nullopt;
+        if (!x || !y)
+            throw InputError("--phase", "\"" + pair + "\" is no phase", "write RIGHT:UP in texels, as 0.25:0.5");
+        phases.push_back({*x, *y});
+    }
+    return phases;
 }
 
 void parse_size(const std::string& text, StimulusGrid& grid) {
@@ -66,9 +100,11 @@ void parse_size(const std::string& text, StimulusGrid& grid) {
 StimulusGrid grid_of(const Options& options) {
     StimulusGrid grid;
     grid.patterns.clear();
-    for (const std::string& text : split(options.patterns, ',')) grid.patterns.push_back(pattern_named(text));
+    for (const std::string& text : split(options.patterns, ',')) add_pattern(grid, text);
     grid.kernels.clear();
     for (const std::string& text : split(options.kernels, ',')) grid.kernels.push_back(kernel_named(text));
+    grid.poisson = options.poisson;
+    grid.phases = parse_phases(options.phases);
     grid.texels_px = parse_number_list(options.texels, "--texel");
     grid.radii_px = parse_number_list(options.radii, "--radius");
     grid.contrasts = parse_number_list(options.contrasts, "--contrast");
@@ -77,84 +113,155 @@ StimulusGrid grid_of(const Options& options) {
     return grid;
 }
 
-void write_stimulus(const fs::path& folder, const Stimulus& stimulus) {
-    const std::vector<double> pixels = luminance(stimulus);
-    Image image(stimulus.width_px, stimulus.height_px, 1);
-    std::transform(pixels.begin(), pixels.end(), image.pixels.begin(),
-                   [](double value) { return static_cast<uint8_t>(level_8bit(value)); });
-    write_png(folder / image_file_name(stimulus), image,
-              {{"ImageDescription", file_stem(stimulus)}, {"Software", "Stairstep " STAIRSTEP_VERSION}});
+ImageEncoding encoding_of(const Options& options) {
+    ImageEncoding encoding;
+    encoding.format = image_format_named(options.format).value();
+    encoding.bits = options.bits.value_or(encoding.format == ImageFormat::exr ? 32 : 8);
+    encoding.dither = dither_named(options.dither).value();
+    require_valid(encoding);
+    encoding.transfer = read_transfer(options.transfer);
+    return encoding;
 }
 
-/// Runs task(0 … count − 1) on `jobs` threads; the first exception ends all and is thrown on.
-void run_in_parallel(size_t count, int jobs, const std::function<void(size_t)>& task) {
-    std::atomic<size_t> next = 0;
-    std::mutex guard;
-    std::exception_ptr failure;
-    const auto work = [&] {
-        for (size_t i; (i = next++) < count;) {
-            try {
-                task(i);
-            } catch (...) {
-                const std::scoped_lock lock(guard);
-                if (!failure) failure = std::current_exception();
-                next = count;
-            }
-        }
-    };
-    {
-        std::vector<std::jthread> threads;
-        for (int i = 1; i < jobs; ++i) threads.emplace_back(work);
-        work();
-    }
-    if (failure) std::rethrow_exception(failure);
+/// What `--source` and a manifest's column source name.
+LuminanceOf luminance_by(const std::string& source) {
+    if (source == "exact") return luminance;
+    throw InputError("source \"" + source + "\"", "is unknown", "use exact");
+}
+
+std::vector<Stimulus> stimuli_of(const Options& options) {
+    const StimulusGrid grid = grid_of(options);
+    if (options.grid_file.empty()) return stimuli_of(grid);
+    Stimulus defaults;
+    defaults.width_px = grid.width_px;
+    defaults.height_px = grid.height_px;
+    defaults.step_reference = grid.step_reference;
+    return read_grid(options.grid_file, defaults);
 }
 
 void generate(const Options& options) {
-    const std::vector<Stimulus> stimuli = stimuli_of(grid_of(options));
-    const fs::path folder = options.out;
-    make_output_folder(folder);
-
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    Progress progress("writing stimuli", static_cast<long>(stimuli.size()));
-    run_in_parallel(stimuli.size(), options.jobs > 0 ? options.jobs : cores, [&](size_t i) {
-        write_stimulus(folder, stimuli[i]);
-        progress.advance();
-    });
+    const std::vector<Stimulus> stimuli = stimuli_of(options);
+    Batch batch;
+    batch.folder = options.out;
+    batch.rendition = {encoding_of(options), options.source, options.pixels_per_degree};
+    batch.jobs = options.jobs;
+    batch.shard = parse_shard(options.shard);
+    batch.resume = options.resume;
+    const BatchSummary summary = write_batch(stimuli, batch, luminance_by(options.source));
     if (!options.contact_sheet.empty()) write_png(options.contact_sheet, contact_sheet(stimuli));
-    // The manifest comes last: where it is, every image it names is.
-    write_manifest(folder / "stimuli.csv", stimuli);
-    std::cout << "wrote " << stimuli.size() << " stimuli and stimuli.csv to " << folder.string() << "\n";
+    std::cout << "wrote " << summary.written << " stimuli and " << summary.manifest << " to " << options.out;
+    if (options.resume) std::cout << ", kept " << summary.kept;
+    std::cout << "\n";
+}
+
+void print_json(const Verification& result) {
+    nlohmann::ordered_json faults = nlohmann::ordered_json::array();
+    for (const ImageFault& fault : result.faults) {
+        nlohmann::ordered_json entry{{"file", fault.file}, {"problem", fault.problem}, {"pixels", fault.pixels}};
+        // JSON has no infinity, the difference from a NaN.
+        const bool finite = std::isfinite(fault.largest_difference);
+        entry["largest_difference"] = finite ? nlohmann::ordered_json(fault.largest_difference) : nullptr;
+        faults.push_back(entry);
+    }
+    const nlohmann::ordered_json report{
+        {"images", result.images}, {"equal", result.images - result.faults.size()}, {"faults", faults}};
+    std::cout << report.dump(2) << "\n";
+}
+
+void print(const Verification& result) {
+    for (const ImageFault& fault : result.faults) {
+        std::cout << fault.file << ": " << fault.problem;
+        if (fault.pixels > 0) {
+            std::cout << ", " << fault.pixels << " by up to " << format_number(fault.largest_difference);
+        }
+        std::cout << "\n";
+    }
+    std::cout << result.images - result.faults.size() << " of " << result.images << " images are as listed\n";
+}
+
+void verify(const VerifyOptions& options) {
+    const Verification result = verify(options.folder, options.jobs, luminance_by);
+    options.json ? print_json(result) : print(result);
+    if (result.faults.empty()) return;
+    throw FailureError(options.folder,
+                       std::to_string(result.faults.size()) + " of " + std::to_string(result.images) +
+                           " images are not what stimuli.csv says",
+                       "remove those and write them again with --resume");
 }
 
 }  // namespace
 }  // namespace stairstep
 
 int main(int argc, char** argv) {
-    stairstep::Options options;
+    using namespace stairstep;
+    Options options;
     CLI::App app("Writes filtered shadow edges as images: every combination of the lists below, with stimuli.csv.",
                  "stairstep-stimuli");
-    app.add_option("--pattern", options.patterns, "of step, stair, line")->capture_default_str();
-    app.add_option("--texel", options.texels, "texel sizes on screen, px: 5,10 or 5:5:30")->capture_default_str();
-    app.add_option("--radius", options.radii, "filter radii, px; 0 is unfiltered")->capture_default_str();
-    app.add_option("--kernel", options.kernels, "of box")->capture_default_str();
-    app.add_option("--contrast", options.contrasts, "lit luminance above a black shadow, (0, 1]")
-        ->capture_default_str();
+    const std::vector<CLI::Option*> axes{
+        app.add_option("--pattern", options.patterns, "of step, stair, slope=M (any silhouette y = M x), line")
+            ->capture_default_str(),
+        app.add_option("--texel", options.texels, "texel sizes on screen, px: 5,10 or 5:5:30")->capture_default_str(),
+        app.add_option("--radius", options.radii, "filter radii, px; 0 is unfiltered")->capture_default_str(),
+        app.add_option("--kernel", options.kernels, "of box, disk, gaussian, poisson")->capture_default_str(),
+        app.add_option("--contrast", options.contrasts, "lit luminance above a black shadow, (0, 1]")
+            ->capture_default_str(),
+        app.add_option("--phase", options.phases, "where the texel grid lies: RIGHT:UP in texels, as 0:0,0.25:0.5")
+            ->capture_default_str(),
+        app.add_option("--taps", options.poisson.taps, "of poisson")->capture_default_str(),
+        app.add_option("--seed", options.poisson.seed, "of poisson: which set of taps")
+            ->check(CLI::Range(0, 2000000000))
+            ->capture_default_str(),
+        app.add_flag("--rotated", options.poisson.rotated,
+                     "poisson: each pixel turns the taps by an angle of its own")};
+    CLI::Option* grid =
+        app.add_option("--grid", options.grid_file,
+                       "instead of those lists a CSV file, one row a stimulus, columns as in stimuli.csv");
+    for (CLI::Option* axis : axes) grid->excludes(axis);
     app.add_option("--size", options.size, "image size, px")->capture_default_str();
     app.add_option("--reference", options.step_reference, "how the line of a step runs")
         ->check(CLI::IsMember({"sloped", "horizontal"}))
         ->capture_default_str();
-    app.add_option("--source", "how images are made")->check(CLI::IsMember({"exact"}))->default_str("exact");
-    app.add_option("--format", "image format")->check(CLI::IsMember({"png"}))->default_str("png");
-    app.add_option("--bits", "bits a channel")->check(CLI::IsMember({"8"}))->default_str("8");
-    app.add_option("--transfer", "from luminance to pixel value")
-        ->check(CLI::IsMember({"linear"}))
-        ->default_str("linear");
-    app.add_option("--out", options.out, "folder for the images and stimuli.csv")->required();
+    app.add_option("--source", options.source, "how images are made")
+        ->check(CLI::IsMember({"exact"}))
+        ->capture_default_str();
+    app.add_option("--format", options.format, "image format")
+        ->check(CLI::IsMember({"png", "tif", "exr"}))
+        ->capture_default_str();
+    app.add_option("--bits", options.bits, "bits a pixel: 8 or 16, for exr 32; default 8 and 32")
+        ->check(CLI::IsMember({8, 16, 32}));
+    app.add_option("--transfer", options.transfer,
+                   "from luminance to stored value: linear, srgb, gamma=2.2 or a CSV file with level,luminance")
+        ->capture_default_str();
+    app.add_option("--dither", options.dither, "for gradients finer than a level")
+        ->check(CLI::IsMember({"none", "ordered", "error-diffusion"}))
+        ->capture_default_str();
+    app.add_option("--pixels-per-degree", options.pixels_per_degree,
+                   "viewing geometry, recorded in images and stimuli.csv");
+    app.add_option("--out", options.out, "folder for the images and stimuli.csv; required");
     app.add_option("--contact-sheet", options.contact_sheet, "also draw all artifacts into this one PNG");
     app.add_option("--jobs", options.jobs, "threads; 0 is one a core")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    app.callback([&options] { stairstep::generate(options); });
-    return stairstep::run_program(app, argc, argv);
+    app.add_option("--shard", options.shard, "i/n: write part i of n alone, with a manifest stimuli.i-of-n.csv");
+    app.add_flag("--resume", options.resume, "keep images that are there already, as described");
+
+    VerifyOptions verify_options;
+    CLI::App* verify_command = app.add_subcommand("verify", "Derives every image of a folder again and compares.");
+    verify_command->add_option("folder", verify_options.folder, "with images and stimuli.csv")->required();
+    verify_command->add_option("--jobs", verify_options.jobs, "threads; 0 is one a core")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    verify_command->add_flag("--json", verify_options.json, "print the result as JSON");
+    // A flag that says what to write says nothing here.
+    for (CLI::Option* option : app.get_options()) {
+        if (option != app.get_help_ptr()) verify_command->excludes(option);
+    }
+    verify_command->callback([&] { verify(verify_options); });
+
+    app.callback([&] {
+        if (!app.get_subcommands().empty()) return;
+        if (options.out.empty()) throw CLI::RequiredError("--out");
+        generate(options);
+    });
+    return run_program(app, argc, argv);
 }

@@ -1,6 +1,7 @@
 #include "stimuli/stimulus.h"
 
 #include <cmath>
+#include <limits>
 
 #include "stimuli/error.h"
 #include "stimuli/number.h"
@@ -18,9 +19,9 @@ void require_valid(const Stimulus& stimulus) {
     const auto is_side = [](int side) { return side >= 1 && side <= kLargestSide; };
     require(stimulus.texel_px > 0 && std::isfinite(stimulus.texel_px), "texel size " + format_number(stimulus.texel_px),
             "must be a finite number above 0 px", "use for example 10");
-    require(stimulus.kernel.radius_px >= 0 && std::isfinite(stimulus.kernel.radius_px),
-            "filter radius " + format_number(stimulus.kernel.radius_px), "must be a finite number, 0 px or above",
-            "use for example 35");
+    require(stimulus.kernel.radius_px >= 0 && stimulus.kernel.radius_px <= std::numeric_limits<float>::max(),
+            "filter radius " + format_number(stimulus.kernel.radius_px),
+            "must be 0 px or above and within the range of a float", "use for example 35");
     require(stimulus.slope >= 0 && std::isfinite(stimulus.slope), "slope " + format_number(stimulus.slope),
             "must be a finite number, 0 or above", "use for example 0.5");
     require(std::isfinite(stimulus.phase.x) && std::isfinite(stimulus.phase.y), "phase",

@@ -19,6 +19,10 @@ class CsvTable {
     static CsvTable parse(const std::string& text, const std::string& source);
 
     size_t row_count() const { return rows_.size(); }
+    const std::vector<std::string>& header() const { return header_; }
+
+    /// Names the table and a row's line, for errors about the row as a whole: "grid.csv: line 3".
+    std::string place(size_t row) const { return source_ + ": line " + std::to_string(row + 2); }
 
     /// Position of a column. Throws InputError naming the file and the column where it is missing.
     size_t column(const std::string& name) const;

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uintmax_t kLargestFile = uintmax_t{1} << 30;
+constexpr const char* kPartialMark = ".partial-";
 
 }  // namespace
 
@@ -32,7 +33,7 @@ OutputFile::OutputFile(fs::path final_path) : final_path_(std::move(final_path))
         throw FailureError(final_path_.string(), "its folder can't be written",
                            "choose another or change its permissions");
     }
-    partial_path_ = folder / ("." + final_path_.stem().string() + ".partial-" + std::to_string(getpid()) +
+    partial_path_ = folder / ("." + final_path_.stem().string() + kPartialMark + std::to_string(getpid()) +
                               final_path_.extension().string());
 }
 
@@ -51,6 +52,12 @@ void OutputFile::commit() {
     fs::rename(partial_path_, final_path_, error);
     if (error) throw FailureError(final_path_.string(), error.message(), "check the folder's permissions");
     committed_ = true;
+}
+
+std::optional<std::string> partial_file_stem(const std::string& file_name) {
+    const size_t mark = file_name.rfind(kPartialMark);
+    if (!file_name.starts_with('.') || mark == std::string::npos || mark == 0) return std::nullopt;
+    return file_name.substr(1, mark - 1);
 }
 
 void write_file(const fs::path& path, std::string_view text) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace stairstep {
@@ -26,6 +28,10 @@ class OutputFile {
     std::filesystem::path partial_path_;
     bool committed_ = false;
 };
+
+/// Whose partial file a file name is: the stem of the final name, as a process leaves it that was killed before it
+/// could commit. nullopt for any other name.
+std::optional<std::string> partial_file_stem(const std::string& file_name);
 
 /// Writes text as a whole file. Throws FailureError.
 void write_file(const std::filesystem::path& path, std::string_view text);

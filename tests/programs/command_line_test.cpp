@@ -15,7 +15,8 @@ namespace stairstep {
 namespace {
 
 struct BadCommand {
-    /// Run in a folder that holds good.csv, good.sqlite, cut.sqlite, text.txt, cut.json, blank.csv.
+    /// Run in a folder that holds good.csv, good.sqlite, cut.sqlite, text.txt, cut.json, blank.csv, falling.csv (a
+    /// transfer), bad-grid.csv.
     const char* command;
     int exit_code;
     /// What the error line must name.
@@ -65,11 +66,15 @@ TEST_P(BadInput, GetsOneErrorLineAndLeavesNothing) {
     const TemporaryFolder folder;
     const std::string in = "cd " + folder.path().string() + " && PATH=" + STAIRSTEP_BIN_DIR + ":$PATH && ";
     make_small_study(folder.path());
-    ASSERT_EQ(run_command(in + "head -c 12000 good.sqlite >cut.sqlite; head -c 1000 good.csv >cut.csv; "
-                               "cut -d, -f1-12 good.csv >no-response.csv; "
-                               "echo hello >text.txt; echo '{\"format\":' >cut.json; : >blank.csv")
-                  .exit_code,
-              0);
+    ASSERT_EQ(
+        run_command(in + "head -c 12000 good.sqlite >cut.sqlite; head -c 1000 good.csv >cut.csv; "
+                         "cut -d, -f1-12 good.csv >no-response.csv; "
+                         "echo hello >text.txt; echo '{\"format\":' >cut.json; : >blank.csv; "
+                         "printf 'level,luminance\\n0,2\\n1,1\\n' >falling.csv; "
+                         "printf 'pattern,kernel,contrast,texel_px,radius_px\\nstep,box,1,5,5\\nstep,box,2,5,5\\n' "
+                         ">bad-grid.csv")
+            .exit_code,
+        0);
 
     const std::string before = listing(folder.path());
     const CommandResult result = run_command(in + GetParam().command);
@@ -79,23 +84,46 @@ TEST_P(BadInput, GetsOneErrorLineAndLeavesNothing) {
     EXPECT_EQ(listing(folder.path()), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stimuli, BadInput,
-                         testing::Values(BadCommand{"stairstep-stimuli", 2, "--out"},
-                                         BadCommand{"stairstep-stimuli --out x --blob", 2, "--blob"},
-                                         BadCommand{"stairstep-stimuli --out x --texel 0", 2, "texel size 0"},
-                                         BadCommand{"stairstep-stimuli --out x --texel -5", 2, "texel size -5"},
-                                         BadCommand{"stairstep-stimuli --out x --texel nan", 2, "--texel"},
-                                         BadCommand{"stairstep-stimuli --out x --radius -1", 2, "filter radius -1"},
-                                         BadCommand{"stairstep-stimuli --out x --radius 0:1e-9:80", 2, "--radius"},
-                                         BadCommand{"stairstep-stimuli --out x --contrast 1.5", 2, "contrast 1.5"},
-                                         BadCommand{"stairstep-stimuli --out x --contrast 0", 2, "contrast 0"},
-                                         BadCommand{"stairstep-stimuli --out x --size 0x480", 2, "--size"},
-                                         BadCommand{"stairstep-stimuli --out x --size 1000000000x480", 2, "--size"},
-                                         BadCommand{"stairstep-stimuli --out x --pattern blob", 2, "blob"},
-                                         BadCommand{"stairstep-stimuli --out x --kernel disk", 2, "disk"},
-                                         BadCommand{"stairstep-stimuli --out x --bits 12", 2, "--bits"},
-                                         BadCommand{"stairstep-stimuli --out text.txt", 1, "text.txt"},
-                                         BadCommand{"stairstep-stimuli --out /proc/self/x", 1, "/proc/self/x"}));
+INSTANTIATE_TEST_SUITE_P(
+    Stimuli, BadInput,
+    testing::Values(BadCommand{"stairstep-stimuli", 2, "--out"},
+                    BadCommand{"stairstep-stimuli --out x --blob", 2, "--blob"},
+                    BadCommand{"stairstep-stimuli --out x --texel 0", 2, "texel size 0"},
+                    BadCommand{"stairstep-stimuli --out x --texel -5", 2, "texel size -5"},
+                    BadCommand{"stairstep-stimuli --out x --texel nan", 2, "--texel"},
+                    BadCommand{"stairstep-stimuli --out x --radius -1", 2, "filter radius -1"},
+                    BadCommand{"stairstep-stimuli --out x --radius 0:1e-9:80", 2, "--radius"},
+                    BadCommand{"stairstep-stimuli --out x --contrast 1.5", 2, "contrast 1.5"},
+                    BadCommand{"stairstep-stimuli --out x --contrast 0", 2, "contrast 0"},
+                    BadCommand{"stairstep-stimuli --out x --size 0x480", 2, "--size"},
+                    BadCommand{"stairstep-stimuli --out x --size 1000000000x480", 2, "--size"},
+                    BadCommand{"stairstep-stimuli --out x --pattern blob", 2, "blob"},
+                    BadCommand{"stairstep-stimuli --out x --kernel disk", 2, "disk"},
+                    BadCommand{"stairstep-stimuli --out x --bits 12", 2, "--bits"},
+                    BadCommand{"stairstep-stimuli --out x --bits 32", 2, "--bits"},
+                    BadCommand{"stairstep-stimuli --out x --format exr --bits 16", 2, "--bits"},
+                    BadCommand{"stairstep-stimuli --out x --format jpg", 2, "--format"},
+                    BadCommand{"stairstep-stimuli --out x --format exr --dither ordered", 2, "--dither"},
+                    BadCommand{"stairstep-stimuli --out x --radius 1e39", 2, "filter radius 1e+39"},
+                    BadCommand{"stairstep-stimuli --out x --contrast nan", 2, "--contrast"},
+                    BadCommand{"stairstep-stimuli --out x --size 100000x10000", 2, "--size"},
+                    BadCommand{"stairstep-stimuli --out x --transfer absent.csv", 2, "absent.csv"},
+                    BadCommand{"stairstep-stimuli --out x --transfer gamma=0", 2, "gamma=0"},
+                    BadCommand{"stairstep-stimuli --out x --transfer falling.csv", 2, "falling.csv: line 3"},
+                    BadCommand{"stairstep-stimuli --out x --transfer text.txt", 2, "text.txt"},
+                    BadCommand{"stairstep-stimuli --out x --pixels-per-degree -60", 2, "--pixels-per-degree"},
+                    BadCommand{"stairstep-stimuli --out x --pixels-per-degree nan", 2, "--pixels-per-degree"},
+                    BadCommand{"stairstep-stimuli --out x --shard 5/4", 2, "--shard"},
+                    BadCommand{"stairstep-stimuli --out x --grid absent.csv", 2, "absent.csv"},
+                    BadCommand{"stairstep-stimuli --out x --grid good.csv", 2, "good.csv"},
+                    BadCommand{"stairstep-stimuli --out x --grid blank.csv", 2, "blank.csv"},
+                    BadCommand{"stairstep-stimuli --out x --grid bad-grid.csv", 2, "bad-grid.csv: line 3"},
+                    BadCommand{"stairstep-stimuli --out x --grid g.csv --texel 5", 2, "--grid"},
+                    BadCommand{"stairstep-stimuli verify", 2, "folder"},
+                    BadCommand{"stairstep-stimuli verify absent", 2, "absent/stimuli.csv"},
+                    BadCommand{"stairstep-stimuli --texel 5 verify absent", 2, "--texel"},
+                    BadCommand{"stairstep-stimuli --out text.txt", 1, "text.txt"},
+                    BadCommand{"stairstep-stimuli --out /proc/self/x", 1, "/proc/self/x"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Study, BadInput,

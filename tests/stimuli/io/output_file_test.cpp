@@ -30,6 +30,15 @@ TEST(OutputFile, AppearsOnlyOnCommit) {
     EXPECT_EQ(read_file(path), "second");
 }
 
+TEST(OutputFile, PartialFilesAreKnownByTheirNames) {
+    const TemporaryFolder folder;
+    const OutputFile output(folder.path() / "step_r17.5.png");
+    EXPECT_EQ(partial_file_stem(output.path().filename().string()), "step_r17.5");
+    for (const char* other : {"step_r17.5.png", "step.partial-1.png", ".partial-1.png", ".hidden", ""}) {
+        EXPECT_EQ(partial_file_stem(other), std::nullopt) << other;
+    }
+}
+
 TEST(OutputFile, SaysWhyItCannotBe) {
     const TemporaryFolder folder;
     EXPECT_THROW(write_file(folder.path() / "absent" / "x", ""), FailureError);
