@@ -7,6 +7,7 @@
 #include <set>
 #include <thread>
 
+#include "renderer/stimulus_source.h"
 #include "stimuli/error.h"
 #include "stimuli/grid.h"
 #include "stimuli/io/contact_sheet.h"
@@ -31,6 +32,7 @@ struct Options {
     std::string contrasts = "1,0.5";
     std::string size = "640x480";
     std::string step_reference = "sloped";
+    std::string source = "exact";
     std::string out;
     std::string contact_sheet;
     int jobs = 0;
@@ -77,8 +79,12 @@ StimulusGrid grid_of(const Options& options) {
     return grid;
 }
 
-void write_stimulus(const fs::path& folder, const Stimulus& stimulus) {
-    const std::vector<double> pixels = luminance(stimulus);
+StimulusSource source_named(const std::string& text) {
+    return text == "shadow-map" ? shadow_map_source() : StimulusSource(luminance);
+}
+
+void write_stimulus(const fs::path& folder, const Stimulus& stimulus, const StimulusSource& source) {
+    const std::vector<double> pixels = source(stimulus);
     Image image(stimulus.width_px, stimulus.height_px, 1);
     std::transform(pixels.begin(), pixels.end(), image.pixels.begin(),
                    [](double value) { return static_cast<uint8_t>(level_8bit(value)); });
@@ -115,15 +121,16 @@ void generate(const Options& options) {
     const fs::path folder = options.out;
     make_output_folder(folder);
 
+    const StimulusSource source = source_named(options.source);
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     Progress progress("writing stimuli", static_cast<long>(stimuli.size()));
     run_in_parallel(stimuli.size(), options.jobs > 0 ? options.jobs : cores, [&](size_t i) {
-        write_stimulus(folder, stimuli[i]);
+        write_stimulus(folder, stimuli[i], source);
         progress.advance();
     });
     if (!options.contact_sheet.empty()) write_png(options.contact_sheet, contact_sheet(stimuli));
     // The manifest comes last: where it is, every image it names is.
-    write_manifest(folder / "stimuli.csv", stimuli);
+    write_manifest(folder / "stimuli.csv", stimuli, options.source);
     std::cout << "wrote " << stimuli.size() << " stimuli and stimuli.csv to " << folder.string() << "\n";
 }
 
@@ -144,7 +151,9 @@ int main(int argc, char** argv) {
     app.add_option("--reference", options.step_reference, "how the line of a step runs")
         ->check(CLI::IsMember({"sloped", "horizontal"}))
         ->capture_default_str();
-    app.add_option("--source", "how images are made")->check(CLI::IsMember({"exact"}))->default_str("exact");
+    app.add_option("--source", options.source, "how artifacts are made: closed forms, or a shadow map in OpenGL")
+        ->check(CLI::IsMember({"exact", "shadow-map"}))
+        ->capture_default_str();
     app.add_option("--format", "image format")->check(CLI::IsMember({"png"}))->default_str("png");
     app.add_option("--bits", "bits a channel")->check(CLI::IsMember({"8"}))->default_str("8");
     app.add_option("--transfer", "from luminance to pixel value")
