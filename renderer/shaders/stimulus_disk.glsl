@@ -8,14 +8,19 @@ vec2 quarter_area(vec2 x) {
     return (x * height + atan(x, height)) / 2;
 }
 
-float mass_below(vec2 column, float height) {
-    vec2 side = clamp(column, -1, 1);
+// Both sides, and what the column has of the disk.
+vec4 column_mass(vec2 sides) {
+    vec2 cut = clamp(sides, -1, 1);
+    vec2 area = 2 * quarter_area(cut);
+    return vec4(cut, area.y - area.x, 0);
+}
+
+float mass_below(vec4 column, float height) {
+    // The part beyond the level |h|: from a cap of half-width w.
     float h = clamp(height, -1, 1);
-    // The part beyond the level |h|, a cap of half-width w, and what the column has of the disk.
     float w = sqrt((1 - h) * (1 + h));
-    vec2 cut = clamp(side, -w, w);
-    vec2 cap_area = quarter_area(cut) - abs(h) * cut;
-    vec2 whole_area = 2 * quarter_area(side);
-    float cap = cap_area.y - cap_area.x;
-    return (h < 0 ? cap : whole_area.y - whole_area.x - cap) / pi;
+    vec2 cut = clamp(column.xy, -w, w);
+    vec2 area = quarter_area(cut) - abs(h) * cut;
+    float beyond = area.y - area.x;
+    return (h < 0 ? beyond : column.z - beyond) / pi;
 }

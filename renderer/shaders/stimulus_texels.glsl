@@ -1,9 +1,8 @@
 // Percentage-closer filtering without error: every texel that the kernel touches counts by the kernel's mass on it. Part
-// of a kernel is
+// of a kernel are, with lengths in units of the radius from its centre,
 //
-//     float mass_below(vec2 column, float height);
-//
-// its mass in a column, from column.x to column.y, up to a height; lengths in units of the radius, from its centre.
+//     vec4 column_mass(vec2 sides);                what it has to know of a column from sides.x to sides.y
+//     float mass_below(vec4 column, float height); the kernel's mass in that column, up to a height
 
 // Half the side of the square that holds the kernel, texels.
 uniform float reach;
@@ -13,7 +12,7 @@ float filtered(ivec2 texel, vec2 within) {
     ivec2 last = ivec2(floor(within + reach));
     float visibility = 0;
     for (int i = first.x; i <= last.x; ++i) {
-        vec2 column = (vec2(i, i + 1) - within.x) / radius;
+        vec4 column = column_mass((vec2(i, i + 1) - within.x) / radius);
         float counted = 0;
         for (int j = first.y; j <= last.y; ++j) {
             float mass = mass_below(column, (j + 1 - within.y) / radius);
