@@ -108,6 +108,10 @@ HalfPlaneMap half_plane_map(const Stimulus& stimulus, int vertex_grid) {
     const Phase grid{own.x + stimulus.phase.x, own.y + stimulus.phase.y};
 
     const double reach = support(stimulus.kernel.shape) * stimulus.kernel.radius_px / a;
+    if (stimulus.kernel.shape != KernelShape::poisson && !(2 * reach <= kWidestStimulusKernel)) {
+        throw InputError("--source shadow-map", "the kernel is " + format_number(2 * reach) + " texels wide",
+                         "use --source exact, larger texels or smaller radii");
+    }
     const auto column_x = [&](int i) { return pixel_centre(stimulus, i, 0).x; };
     const auto row_y = [&](int i) { return pixel_centre(stimulus, 0, stimulus.height_px - 1 - i).y; };
     const Span x = span_of(

@@ -39,6 +39,9 @@ struct HalfPlaneMap {
 /// Most texels along a side of the map: 256 MiB of depth.
 inline constexpr int kLargestHalfPlaneMap = 8192;
 
+/// Most texels that a kernel weighed texel by texel may be wide: 640×480 pixels of it take minutes of a CPU.
+inline constexpr double kWidestStimulusKernel = 256;
+
 /// The map for an artifact. It covers the image and the kernel's support around it. `vertex_grid` is 2^GL_SUBPIXEL_BITS.
 ///
 /// The silhouette is y = m·x; a step's has the greatest slope that leaves one step in what the map covers: a over its width
@@ -47,7 +50,8 @@ inline constexpr int kLargestHalfPlaneMap = 8192;
 /// The map's texels are those of Edge exactly, unless a centre lies below the silhouette by less than about 10⁻⁴ texel: by
 /// less than 2⁻⁹ where the slope is 0 or 1, and to its side by as little where the slope is in the hundreds.
 ///
-/// Throws InputError for a line, which has no texels, and for a map beyond kLargestHalfPlaneMap.
+/// Throws InputError for a line, which has no texels, for a map beyond kLargestHalfPlaneMap, and for a kernel beyond
+/// kWidestStimulusKernel.
 HalfPlaneMap half_plane_map(const Stimulus& stimulus, int vertex_grid);
 
 }  // namespace stairstep

@@ -230,9 +230,11 @@ TEST(HalfPlaneMap, HangsItsEdgeOnTheVertexGrid) {
 TEST(HalfPlaneMap, RefusesWhatHasNoMap) {
     Stimulus line{.pattern = Pattern::line};
     EXPECT_THROW(half_plane_map(line, 256), InputError);
-    for (const double radius_px : {1e5, 1e300}) {
+    for (const double radius_px : {1300.0, 1e5, 1e300}) {
         EXPECT_THROW(half_plane_map({.kernel = {KernelShape::box, radius_px}}, 256), InputError);
     }
+    EXPECT_NO_THROW(half_plane_map({.kernel = {KernelShape::poisson, 1300}}, 256)) << "taps cost the same anywhere";
+    EXPECT_THROW(half_plane_map({.kernel = {KernelShape::poisson, 1e5}}, 256), InputError);
     EXPECT_THROW(half_plane_map({.texel_px = 1e-3}, 256), InputError);
 }
 
