@@ -52,11 +52,9 @@ int bayer_rank(size_t column, size_t row) {
 }
 
 std::vector<float> nearest(std::span<const double> luminance, const Transfer& transfer, int bits) {
-    const double last = static_cast<double>((1 << bits) - 1);
     std::vector<float> levels(luminance.size());
-    std::transform(luminance.begin(), luminance.end(), levels.begin(), [&](double value) {
-        return static_cast<float>(std::floor(transfer.encode(value) * last + 0.5 + 1e-9));
-    });
+    std::transform(luminance.begin(), luminance.end(), levels.begin(),
+                   [&](double value) { return static_cast<float>(nearest_level(value, transfer, bits)); });
     return levels;
 }
 
@@ -109,6 +107,10 @@ std::vector<float> diffused(std::span<const double> luminance, size_t width, con
 }
 
 }  // namespace
+
+double nearest_level(double luminance, const Transfer& transfer, int bits) {
+    return std::floor(transfer.encode(luminance) * ((1 << bits) - 1) + 0.5 + 1e-9);
+}
 
 std::string_view name(Dither dither) {
     switch (dither) {

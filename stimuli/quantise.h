@@ -22,6 +22,9 @@ enum class Dither { none, ordered, error_diffusion };
 std::string_view name(Dither dither);
 std::optional<Dither> dither_named(std::string_view name);
 
+/// The level 0 … 2^bits − 1 nearest to a luminance in [0, 1] once encoded; a greater luminance never has a smaller one.
+double nearest_level(double luminance, const Transfer& transfer, int bits);
+
 /// The levels 0 … 2^bits − 1 of a picture with rows of `width` luminances in [0, 1]; a function of its arguments alone.
 /// bits is 8 or 16. As floats, which hold these integers exactly.
 std::vector<float> quantise(std::span<const double> luminance, int width, const Transfer& transfer, int bits,

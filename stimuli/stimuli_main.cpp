@@ -4,12 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "analysis/law/law_file.h"
+#include "renderer/stimulus_source.h"
 #include "stimuli/error.h"
 #include "stimuli/grid.h"
 #include "stimuli/io/batch.h"
 #include "stimuli/io/contact_sheet.h"
 #include "stimuli/io/image_file.h"
+#include "stimuli/io/output_file.h"
 #include "stimuli/io/program.h"
+#include "stimuli/io/reference_report.h"
 #include "stimuli/io/transfer_file.h"
 #include "stimuli/io/verification.h"
 #include "stimuli/number.h"
@@ -40,6 +44,15 @@ struct Options {
     int jobs = 0;
     std::string shard = "1/1";
     bool resume = false;
+};
+
+/// For `reference`; the grid's axes come from Options.
+struct ReferenceOptions {
+    Options grid{.patterns = "step,stair", .radii = "0"};
+    double largest_radius_px = 640;
+    std::string law;
+    std::string plot;
+    bool json = false;
 };
 
 struct VerifyOptions {
@@ -123,10 +136,14 @@ ImageEncoding encoding_of(const Options& options) {
     return encoding;
 }
 
-/// What `--source` and a manifest's column source name.
+/// What `--source` and a manifest's column source name. A shadow map's GL context opens when one is first asked for.
 LuminanceOf luminance_by(const std::string& source) {
     if (source == "exact") return luminance;
-    throw InputError("source \"" + source + "\"", "is unknown", "use exact");
+    if (source == "shadow-map") {
+        static const StimulusSource shadow_map = shadow_map_source();
+        return shadow_map;
+    }
+    throw InputError("source \"" + source + "\"", "is unknown", "use exact or shadow-map");
 }
 
 std::vector<Stimulus> stimuli_of(const Options& options) {
@@ -189,6 +206,64 @@ void verify(const VerifyOptions& options) {
                        "remove those and write them again with --resume");
 }
 
+std::string text_or_dash(const std::optional<double>& radius) {
+    return radius ? format_fixed(*radius, 2) : "-";
+}
+
+void print_references(const std::vector<ReferenceSizes>& sizes, double largest_radius_px) {
+    std::cout
+        << "radius in px from which on artifact and line differ nowhere by more than 1 level, 1/2 level, not at all\n"
+        << "after rounding to 8 bits; - is not reached up to " << format_number(largest_radius_px) << " px\n";
+    for (const ReferenceSizes& s : sizes) {
+        const Stimulus& a = s.artifact;
+        std::cout << "  " << name(a.pattern) << (a.pattern == Pattern::slope ? " " + format_number(a.slope) : "")
+                  << ", " << name(a.kernel.shape) << ", contrast " << format_number(a.contrast)
+                  << ", a = " << format_number(a.texel_px) << " px:  " << text_or_dash(s.one_level) << "  "
+                  << text_or_dash(s.half_level) << "  " << text_or_dash(s.identical) << "\n";
+    }
+}
+
+void print_references_json(const std::vector<ReferenceSizes>& sizes, double largest_radius_px) {
+    const auto number = [](const std::optional<double>& radius) {
+        return radius ? nlohmann::ordered_json(*radius) : nlohmann::ordered_json(nullptr);
+    };
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const ReferenceSizes& s : sizes) {
+        rows.push_back({{"pattern", name(s.artifact.pattern)},
+                        {"slope", s.artifact.slope},
+                        {"kernel", name(s.artifact.kernel.shape)},
+                        {"contrast", s.artifact.contrast},
+                        {"texel_px", s.artifact.texel_px},
+                        {"one_level_px", number(s.one_level)},
+                        {"half_level_px", number(s.half_level)},
+                        {"identical_px", number(s.identical)}});
+    }
+    std::cout << nlohmann::ordered_json{{"largest_radius_px", largest_radius_px}, {"sizes", rows}}.dump(2) << "\n";
+}
+
+std::vector<StudyLaw> laws_of(const std::string& path) {
+    if (path.empty()) return {};
+    const Law law = law_named(path);
+    if (law.conditions.empty()) return {{law.pattern, law.contrast, law.kernel, law.slope}};
+    std::vector<StudyLaw> laws;
+    for (const ConditionLaw& c : law.conditions) laws.push_back({c.pattern, c.contrast, c.kernel, c.slope});
+    return laws;
+}
+
+void find_references(const ReferenceOptions& options) {
+    if (!(options.largest_radius_px > 0 && options.largest_radius_px <= 1e6)) {
+        throw InputError("--largest " + format_number(options.largest_radius_px), "must be above 0 and up to 10^6 px",
+                         "use for example 640");
+    }
+    const std::vector<StudyLaw> laws = laws_of(options.law);
+    const std::vector<Stimulus> artifacts = stimuli_of(grid_of(options.grid));
+    const auto sizes = reference_sizes(artifacts, options.largest_radius_px, options.grid.jobs);
+    if (!options.grid.out.empty()) write_file(options.grid.out, reference_csv(sizes, options.largest_radius_px));
+    if (!options.plot.empty()) write_file(options.plot, reference_figure(sizes, laws));
+    options.json ? print_references_json(sizes, options.largest_radius_px)
+                 : print_references(sizes, options.largest_radius_px);
+}
+
 }  // namespace
 }  // namespace stairstep
 
@@ -221,8 +296,8 @@ int main(int argc, char** argv) {
     app.add_option("--reference", options.step_reference, "how the line of a step runs")
         ->check(CLI::IsMember({"sloped", "horizontal"}))
         ->capture_default_str();
-    app.add_option("--source", options.source, "how images are made")
-        ->check(CLI::IsMember({"exact"}))
+    app.add_option("--source", options.source, "exact (closed forms) or shadow-map (drawn by one, with OSMesa)")
+        ->check(CLI::IsMember({"exact", "shadow-map"}))
         ->capture_default_str();
     app.add_option("--format", options.format, "image format")
         ->check(CLI::IsMember({"png", "tif", "exr"}))
@@ -252,9 +327,36 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     verify_command->add_flag("--json", verify_options.json, "print the result as JSON");
+    ReferenceOptions reference;
+    CLI::App* reference_command =
+        app.add_subcommand("reference", "Finds the radius from which on a sampled edge looks exactly like its line.");
+    reference_command->add_option("--pattern", reference.grid.patterns, "of step, stair, slope=M")
+        ->capture_default_str();
+    reference_command->add_option("--texel", reference.grid.texels, "texel sizes on screen, px")->capture_default_str();
+    reference_command->add_option("--kernel", reference.grid.kernels, "of box, disk, gaussian, poisson")
+        ->capture_default_str();
+    reference_command->add_option("--contrast", reference.grid.contrasts, "lit luminance, (0, 1]")
+        ->capture_default_str();
+    reference_command->add_option("--size", reference.grid.size, "of the pictures compared, px")->capture_default_str();
+    reference_command->add_option("--reference", reference.grid.step_reference, "how the line of a step runs")
+        ->check(CLI::IsMember({"sloped", "horizontal"}))
+        ->capture_default_str();
+    reference_command->add_option("--largest", reference.largest_radius_px, "radius up to which to look, px")
+        ->capture_default_str();
+    reference_command->add_option("--out", reference.grid.out, "also write the table as CSV");
+    reference_command->add_option("--plot", reference.plot, "also draw it as SVG");
+    reference_command->add_option("--law", reference.law, "a study's law.json, or kreuzer2017, to draw beside it");
+    reference_command->add_option("--jobs", reference.grid.jobs, "threads; 0 is one a core")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    reference_command->add_flag("--json", reference.json, "print the table as JSON");
+    reference_command->callback([&] { find_references(reference); });
+
     // A flag that says what to write says nothing here.
-    for (CLI::Option* option : app.get_options()) {
-        if (option != app.get_help_ptr()) verify_command->excludes(option);
+    for (CLI::App* command : {verify_command, reference_command}) {
+        for (CLI::Option* option : app.get_options()) {
+            if (option != app.get_help_ptr()) command->excludes(option);
+        }
     }
     verify_command->callback([&] { verify(verify_options); });
 

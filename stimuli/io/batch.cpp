@@ -66,7 +66,9 @@ BatchSummary write_batch(const std::vector<Stimulus>& stimuli, const Batch& batc
                 ++kept;
             } else {
                 // The luminances go before the file's bytes come.
-                const StoredImage image = encode(part[i], luminance_of(part[i]), encoding);
+                const bool exact = batch.rendition.source == "exact";
+                const StoredImage image =
+                    exact ? encode_exact(part[i], encoding) : encode(part[i], luminance_of(part[i]), encoding);
                 write_stored_image(path, image, text);
             }
             progress.advance();

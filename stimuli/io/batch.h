@@ -39,6 +39,7 @@ struct BatchSummary {
     std::string manifest;
 };
 
+/// Luminances of the source "exact" don't come from luminance_of: encode_exact draws them.
 /// Throws InputError before anything is written where a stimulus is invalid or two have the same file name, and
 /// FailureError where a file can't be written; images finished by then stay. The manifest, in the order of `stimuli`,
 /// comes last: where a run in an empty folder has left one, every image it names is there.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stimuli/draw.h"
 #include "stimuli/error.h"
 
 namespace stairstep {
@@ -45,6 +46,14 @@ StoredImage encode(const Stimulus& stimulus, std::span<const double> luminance, 
     std::transform(luminance.begin(), luminance.end(), image.values.begin(),
                    [&](double value) { return static_cast<float>(encoding.transfer.encode(value)); });
     return image;
+}
+
+StoredImage encode_exact(const Stimulus& stimulus, const ImageEncoding& encoding) {
+    if (encoding.dither != Dither::none || encoding.format == ImageFormat::exr) {
+        return encode(stimulus, luminance(stimulus), encoding);
+    }
+    const auto quantise = [&](double value) { return nearest_level(value, encoding.transfer, encoding.bits); };
+    return {stimulus.width_px, stimulus.height_px, encoding.bits, draw<float>(stimulus, quantise)};
 }
 
 }  // namespace stairstep

@@ -34,4 +34,8 @@ void require_valid(const ImageEncoding& encoding);
 /// The values to store for a stimulus's luminances: levels for integers, the transfer's result for floats.
 StoredImage encode(const Stimulus& stimulus, std::span<const double> luminance, const ImageEncoding& encoding);
 
+/// encode() of the exact luminance, without computing what rounding makes equal: many times as fast where there is no
+/// dither.
+StoredImage encode_exact(const Stimulus& stimulus, const ImageEncoding& encoding);
+
 }  // namespace stairstep

@@ -13,7 +13,8 @@ std::vector<Field> fields_of(const Stimulus& stimulus, const Rendition& renditio
     const ImageEncoding& encoding = rendition.encoding;
     const auto& geometry = rendition.pixels_per_degree;
     std::vector<Field> fields = fields_of(stimulus);
-    fields.emplace_back("source", rendition.source);
+    // A line has no shadow map: whatever draws the artifacts, lines are exact.
+    fields.emplace_back("source", stimulus.pattern == Pattern::line ? "exact" : rendition.source);
     fields.emplace_back("transfer", encoding.transfer.name());
     fields.emplace_back("bits", std::to_string(encoding.bits));
     fields.emplace_back("dither", std::string(name(encoding.dither)));

@@ -47,6 +47,23 @@ TEST_F(Pipeline, StimuliAreListedWrittenAndWhatTheyClaim) {
     EXPECT_GT(read_image(file("sheet.png")).width, 100);
 }
 
+TEST_F(Pipeline, AShadowMapDrawsTheSameStimuli) {
+    const std::string grid = "stairstep-stimuli --texel 10 --radius 0,15,35 --contrast 1 --size 64x48 --jobs 3 ";
+    run(grid + "--out exact");
+    run(grid + "--source shadow-map --out drawn");
+    const CsvTable manifest = CsvTable::read(file("drawn/stimuli.csv"));
+    ASSERT_EQ(manifest.row_count(), 4u * 3u);
+    for (size_t row = 0; row < manifest.row_count(); ++row) {
+        const bool is_line = manifest.text(row, manifest.column("pattern")) == "line";
+        EXPECT_EQ(manifest.text(row, manifest.column("source")), is_line ? "exact" : "shadow-map");
+        const std::string name = manifest.text(row, manifest.column("file"));
+        const Image exact = read_image(file("exact/" + name));
+        const Image drawn = read_image(file("drawn/" + name));
+        ASSERT_EQ(drawn.pixels.size(), exact.pixels.size());
+        for (size_t i = 0; i < exact.pixels.size(); ++i) EXPECT_NEAR(drawn.pixels[i], exact.pixels[i], 1) << name;
+    }
+}
+
 TEST_F(Pipeline, OneAndManyThreadsWriteTheSameBytes) {
     run("stairstep-stimuli --texel 5,10 --radius 0:5:20 --size 80x60 --out one --jobs 1");
     run("stairstep-stimuli --texel 5,10 --radius 0:5:20 --size 80x60 --out many --jobs 4");

@@ -99,5 +99,25 @@ TEST(ImageEncoding, KnowsWhichDepthsAFormatHas) {
     EXPECT_THROW(require_valid(ImageEncoding{ImageFormat::exr, 32, {}, Dither::ordered}), InputError);
 }
 
+TEST(ImageEncoding, ExactIsTheEncodedExactLuminance) {
+    for (const KernelShape shape : {KernelShape::box, KernelShape::disk, KernelShape::gaussian, KernelShape::poisson}) {
+        for (const Pattern pattern : {Pattern::step, Pattern::stair}) {
+            for (const ImageEncoding& encoding :
+                 {ImageEncoding{}, ImageEncoding{ImageFormat::tif, 16}, ImageEncoding{ImageFormat::exr, 32},
+                  ImageEncoding{ImageFormat::png, 8, *Transfer::named("gamma=2.2")},
+                  ImageEncoding{ImageFormat::png, 8, {}, Dither::error_diffusion}}) {
+                const Stimulus stimulus{.pattern = pattern,
+                                        .silhouette = pattern,
+                                        .kernel = {.shape = shape, .radius_px = 23},
+                                        .contrast = 0.5,
+                                        .width_px = 160,
+                                        .height_px = 120};
+                EXPECT_EQ(encode_exact(stimulus, encoding), encode(stimulus, luminance(stimulus), encoding))
+                    << file_stem(stimulus) << " " << encoding.bits;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace stairstep
