@@ -48,7 +48,12 @@ struct Options {
 
 /// For `reference`; the grid's axes come from Options.
 struct ReferenceOptions {
-    Options grid{.patterns = "step,stair", .radii = "0"};
+    Options grid = [] {
+        Options options;
+        options.patterns = "step,stair";
+        options.radii = "0";  // what is sought
+        return options;
+    }();
     double largest_radius_px = 640;
     std::string law;
     std::string plot;

@@ -125,22 +125,21 @@ double gaussian_above_line(double slope, double d) {
 
 /// S(x) = ∫₀ˣ √(1 − t²) dt, x limited to the unit disk.
 double quarter_area(double x) {
-    x = std::clamp(x, -1.0, 1.0);
+    if (std::abs(x) >= 1) return std::copysign(std::numbers::pi / 4, x);
     return (x * std::sqrt(1 - x * x) + std::asin(x)) / 2;
 }
 
 /// Area of the unit disk within b ≤ x ≤ e and above h.
 double disk_column_area(double b, double e, double h) {
     if (h >= 1 || b >= 1 || e <= -1) return 0;
-    const double whole = 2 * (quarter_area(e) - quarter_area(b));
-    if (h <= -1) return whole;
-    // Where |x| < w the level cuts the disk; beyond, it passes above (h > 0) or below (h < 0) what there is.
+    if (h <= -1) return 2 * (quarter_area(e) - quarter_area(b));
+    // Where |x| < w the level cuts the disk. What lies above it there is S(x) − h·x; below the level a mirrored cap is
+    // missing from the whole column.
     const double w = std::sqrt((1 - h) * (1 + h));
     const double cut_b = std::clamp(b, -w, w);
     const double cut_e = std::clamp(e, -w, w);
-    const double cut = quarter_area(cut_e) - quarter_area(cut_b) - h * (cut_e - cut_b);
-    if (h >= 0) return cut;
-    return cut + whole - 2 * (quarter_area(cut_e) - quarter_area(cut_b));
+    const double cap = quarter_area(cut_e) - quarter_area(cut_b) - std::abs(h) * (cut_e - cut_b);
+    return h >= 0 ? cap : 2 * (quarter_area(e) - quarter_area(b)) - cap;
 }
 
 }  // namespace

@@ -34,13 +34,14 @@ std::vector<double> spread(const std::set<double>& values, size_t count) {
 /// The middle of the stimulus at half size: each cell pixel averages a 2 × 2 block.
 void draw_cell(Image& sheet, const Stimulus& stimulus, int left, int top) {
     const Edge edge = edge_of(stimulus);
+    const Filter filter(stimulus.kernel);
     for (int row = 0; row < kCellHeight; ++row) {
         for (int column = 0; column < kCellWidth; ++column) {
             double sum = 0;
             for (const double dy : {-0.5, 0.5}) {
                 for (const double dx : {-0.5, 0.5}) {
                     const Point p{2 * (column + 0.5 - kCellWidth / 2.0) + dx, 2 * (kCellHeight / 2.0 - row - 0.5) + dy};
-                    sum += visibility(edge, stimulus.kernel, p);
+                    sum += filter.visibility(edge, p);
                 }
             }
             *sheet.at(left + column, top + row) = static_cast<uint8_t>(level_8bit(stimulus.contrast * sum / 4));
@@ -93,11 +94,11 @@ Image contact_sheet(const std::vector<Stimulus>& stimuli) {
             draw_text(sheet, kGap, top + kCellHeight / 2, "a = " + format_number(texel_px), 16, kInk);
             for (size_t c = 0; c < radii.size(); ++c) {
                 const int left = kMarginLeft + static_cast<int>(c) * (kCellWidth + kGap);
-                Stimulus stimulus = *first;
-                stimulus.pattern = stimulus.silhouette = pattern;
-                stimulus.texel_px = texel_px;
-                stimulus.kernel.radius_px = radii[c];
-                draw_cell(sheet, stimulus, left, top);
+                const auto stimulus = std::find_if(shown.begin(), shown.end(), [&](const Stimulus& s) {
+                    return s.pattern == pattern && s.texel_px == texel_px && s.kernel.radius_px == radii[c];
+                });
+                if (stimulus == shown.end()) continue;  // a grid from a file may have gaps
+                draw_cell(sheet, *stimulus, left, top);
                 draw_text(sheet, left, top + kCellHeight + 15, format_fixed(radii[c] / texel_px, 1) + " texels", 13,
                           kInk);
             }
