@@ -18,6 +18,7 @@ constexpr int kLabelHeight = 20;
 constexpr int kGap = 8;
 constexpr int kMarginLeft = 74;
 constexpr int kHeadingHeight = 58;
+constexpr int kHeadingWidth = 760;
 constexpr int kMostColumns = 10;
 constexpr uint8_t kPaper = 236;
 constexpr uint8_t kInk = 30;
@@ -74,8 +75,8 @@ Image contact_sheet(const std::vector<Stimulus>& stimuli) {
 
     const int row_height = kCellHeight + kLabelHeight + kGap;
     const int block_height = kHeadingHeight + static_cast<int>(texels.size()) * row_height;
-    Image sheet(kMarginLeft + static_cast<int>(radii.size()) * (kCellWidth + kGap) + kGap,
-                static_cast<int>(patterns.size()) * block_height + kGap, 1);
+    const int columns_width = kMarginLeft + static_cast<int>(radii.size()) * (kCellWidth + kGap) + kGap;
+    Image sheet(std::max(columns_width, kHeadingWidth), static_cast<int>(patterns.size()) * block_height + kGap, 1);
     std::fill(sheet.pixels.begin(), sheet.pixels.end(), kPaper);
 
     int top = 0;
