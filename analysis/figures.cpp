@@ -19,9 +19,7 @@ const char* colour(Pattern pattern) {
     return pattern == Pattern::step ? "#0072b2" : "#d55e00";
 }
 
-constexpr const char* kStyle =
-    "set border 3 lc rgb '#555555'\nset tics nomirror out tc rgb '#333333'\n"
-    "set grid ytics lc rgb '#e6e6e6' lt 1 lw 0.6\nset key top left reverse Left samplen 1.6 spacing 1.1\n";
+constexpr const char* kKey = "set key top left reverse Left samplen 1.6 spacing 1.1\n";
 
 /// Collects data blocks ($name << EOD) and the plot's parts that draw them.
 class Plot {
@@ -96,7 +94,7 @@ std::string law_figure(const LawFit& fit) {
     for (const ConditionLaw& law : fit.law.conditions) contrasts.insert(law.contrast);
 
     std::ostringstream script;
-    script << kStyle << "set multiplot layout 1," << contrasts.size() << "\nset xlabel 'texel size a on screen, px'\n"
+    script << kKey << "set multiplot layout 1," << contrasts.size() << "\nset xlabel 'texel size a on screen, px'\n"
            << "set xrange [0:" << largest_texel * 1.08 << "]\nset yrange [0:" << largest_radius * 1.05 << "]\n";
     for (const double contrast : contrasts) {
         script << "set title 'contrast " << format_number(100 * contrast) << " %'\n"
@@ -126,7 +124,7 @@ std::string convergence_figure(const std::vector<Trial>& trials, const LawFit& f
               [](const Track& a, const Track& b) { return a.condition.texel_px < b.condition.texel_px; });
 
     std::ostringstream script;
-    script << kStyle << "set multiplot layout 1," << tracks.size() << "\nunset key\nset xlabel 'trial'\nset xtics 20\n";
+    script << kKey << "set multiplot layout 1," << tracks.size() << "\nunset key\nset xlabel 'trial'\nset xtics 20\n";
     for (const Track& track : tracks) {
         const auto threshold = std::find_if(fit.thresholds.begin(), fit.thresholds.end(), [&](const Threshold& t) {
             return t.observer == track.observer && t.condition == track.condition;

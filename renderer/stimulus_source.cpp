@@ -63,7 +63,7 @@ class DrawingThread {
 
 }  // namespace
 
-StimulusSource shadow_map_source() {
+LuminanceOf shadow_map_source() {
     return [thread = std::make_shared<DrawingThread>()](const Stimulus& stimulus) {
         return stimulus.pattern == Pattern::line ? luminance(stimulus) : thread->luminance(stimulus);
     };

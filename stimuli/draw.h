@@ -7,12 +7,17 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "stimuli/stimulus.h"
 #include "stimuli/visibility.h"
 
 namespace stairstep {
+
+/// A way to make luminances: as luminance() of stimulus.h, width × height values in [0, C], row by row from the top; a
+/// function of the stimulus alone.
+using LuminanceOf = std::function<std::vector<double>(const Stimulus&)>;
 
 /// A translation in pixels, right and up.
 struct Translation {

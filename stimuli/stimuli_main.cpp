@@ -145,7 +145,7 @@ ImageEncoding encoding_of(const Options& options) {
 LuminanceOf luminance_by(const std::string& source) {
     if (source == "exact") return luminance;
     if (source == "shadow-map") {
-        static const StimulusSource shadow_map = shadow_map_source();
+        static const LuminanceOf shadow_map = shadow_map_source();
         return shadow_map;
     }
     throw InputError("source \"" + source + "\"", "is unknown", "use exact or shadow-map");

@@ -6,19 +6,15 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "stimuli/draw.h"
 #include "stimuli/io/manifest.h"
 #include "stimuli/shard.h"
 #include "stimuli/stimulus.h"
 
 namespace stairstep {
-
-/// Where luminances come from: width × height values in [0, 1], row by row from the top; a function of the stimulus
-/// alone. Called from several threads at once.
-using LuminanceOf = std::function<std::vector<double>(const Stimulus&)>;
 
 struct Batch {
     std::filesystem::path folder;
@@ -39,7 +35,7 @@ struct BatchSummary {
     std::string manifest;
 };
 
-/// Luminances of the source "exact" don't come from luminance_of: encode_exact draws them.
+/// luminance_of is called from several threads at once. Luminances of the source "exact" don't come from luminance_of: encode_exact draws them.
 /// Throws InputError before anything is written where a stimulus is invalid or two have the same file name, and
 /// FailureError where a file can't be written; images finished by then stay. The manifest, in the order of `stimuli`,
 /// comes last: where a run in an empty folder has left one, every image it names is there.

@@ -11,6 +11,11 @@ namespace stairstep {
 namespace fs = std::filesystem;
 namespace {
 
+/// Quiet axes, the data in front.
+constexpr const char* kStyle =
+    "set border 3 lc rgb '#555555'\nset tics nomirror out tc rgb '#333333'\n"
+    "set grid ytics lc rgb '#e6e6e6' lt 1 lw 0.6\n";
+
 std::string shell_quoted(const std::string& text) {
     std::string quoted = "'";
     for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -25,7 +30,7 @@ std::string draw_svg(const std::string& script, int width_px, int height_px) {
                                                 std::to_string(height_px) +
                                                 " font 'Helvetica,13' background '#ffffff'\n"
                                                 "set output 'figure.svg'\nset encoding utf8\n" +
-                                                script);
+                                                kStyle + script);
     const std::string command = "cd " + shell_quoted(folder.path().string()) + " && gnuplot figure.gp 2>errors.txt";
     const int status = std::system(command.c_str());
     const fs::path figure = folder.path() / "figure.svg";

@@ -5,7 +5,7 @@
 
 namespace stairstep {
 
-/// Runs a script that writes to 'figure.svg' (terminal and output are set before it) and returns the SVG.
+/// Runs a script that writes to 'figure.svg' (terminal, output, axes and grid are set before it, alike for all figures) and returns the SVG.
 /// Throws FailureError where gnuplot is missing or refuses the script.
 std::string draw_svg(const std::string& script, int width_px, int height_px);
 

@@ -74,8 +74,7 @@ std::string reference_figure(const std::vector<ReferenceSizes>& sizes, const std
     for (const StudyLaw& law : laws) largest_radius = std::max(largest_radius, law.slope * largest_texel);
 
     std::ostringstream script;
-    script << "set border 3 lc rgb '#555555'\nset tics nomirror out tc rgb '#333333'\n"
-              "set grid ytics lc rgb '#e6e6e6' lt 1 lw 0.6\nset key top left reverse Left samplen 2 spacing 1.1\n"
+    script << "set key top left reverse Left samplen 2 spacing 1.1\n"
            << "set multiplot layout " << (panels.size() + 1) / 2 << "," << std::min<size_t>(panels.size(), 2)
            << "\nset xlabel 'texel size a on screen, px'\nset ylabel 'filter radius r, px'\nset xrange [0:"
            << largest_texel * 1.08 << "]\nset yrange [0:" << std::max(largest_radius, 1.0) * 1.15 << "]\n";

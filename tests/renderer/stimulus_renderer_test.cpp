@@ -183,7 +183,7 @@ TEST_F(StimulusRendererTest, AStepIsOneWhereverItStands) {
 }
 
 TEST(ShadowMapSource, ManyThreadsGetTheirPictures) {
-    const StimulusSource source = shadow_map_source();
+    const LuminanceOf source = shadow_map_source();
     std::vector<std::jthread> threads;
     for (int i = 0; i < 4; ++i) {
         threads.emplace_back([&source, i] {
@@ -198,7 +198,7 @@ TEST(ShadowMapSource, ManyThreadsGetTheirPictures) {
 }
 
 TEST(ShadowMapSource, LinesAreExactAndErrorsReachTheCaller) {
-    const StimulusSource source = shadow_map_source();
+    const LuminanceOf source = shadow_map_source();
     const Stimulus line{.pattern = Pattern::line, .kernel = {KernelShape::disk, 9}, .width_px = 64, .height_px = 48};
     EXPECT_EQ(source(line), luminance(line));
     EXPECT_THROW(source({.kernel = {KernelShape::box, 1e300}}), InputError);
