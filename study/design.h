@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "study/quest.h"
+#include "study/engines/quest.h"
 #include "study/trial.h"
 
 namespace stairstep {

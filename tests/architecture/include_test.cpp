@@ -78,10 +78,10 @@ TEST(Includes, FollowTheTable) {
 
 TEST(Includes, TheTableForbids) {
     EXPECT_FALSE(is_allowed({"stimuli/edge.h", "stimuli/io/csv.h"}));
-    EXPECT_FALSE(is_allowed({"stimuli/edge.h", "study/quest.h"}));
+    EXPECT_FALSE(is_allowed({"stimuli/edge.h", "study/engines/quest.h"}));
     EXPECT_FALSE(is_allowed({"analysis/law/law.h", "analysis/law_fit.h"}));
     EXPECT_FALSE(is_allowed({"renderer/frame.cpp", "analysis/law_fit.h"}));
-    EXPECT_FALSE(is_allowed({"renderer/frame.cpp", "study/quest.h"}));
+    EXPECT_FALSE(is_allowed({"renderer/frame.cpp", "study/engines/quest.h"}));
     EXPECT_FALSE(is_allowed({"study/session.cpp", "renderer/gl/context.h"}));
     EXPECT_TRUE(is_allowed({"study/display/window.cpp", "renderer/gl/context.h"}));
     EXPECT_TRUE(is_allowed({"analysis/law_fit.cpp", "analysis/law/law.h"}));

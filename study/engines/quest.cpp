@@ -1,4 +1,4 @@
-#include "study/quest.h"
+#include "study/engines/quest.h"
 
 #include <numbers>
 #include <string>
@@ -13,7 +13,7 @@ constexpr double kLargestGrid = 1e6;
 
 void require_valid(const QuestSettings& s) {
     const auto require = [](bool holds, const std::string& subject, const char* problem) {
-        if (!holds) throw InputError("QUEST " + subject, problem, "compare the settings with study/quest.h");
+        if (!holds) throw InputError("QUEST " + subject, problem, "compare the settings with study/engines/quest.h");
     };
     require(std::isfinite(s.guess), "guess", "must be a finite number");
     require(s.guess_sd > 0 && std::isfinite(s.guess_sd), "guess SD", "must be a finite number above 0");
@@ -86,6 +86,23 @@ double Quest::mean() const {
 }
 double Quest::sd() const {
     return sd_;
+}
+
+double Quest::quantile(double order) const {
+    // Each grid point stands for the cell around it; the mass within a cell is spread evenly.
+    double mass = 0;
+    for (const double log_p : log_posterior_) mass += std::exp(log_p);
+    double below = 0;
+    for (size_t i = 0; i < log_posterior_.size(); ++i) {
+        const double p = std::exp(log_posterior_[i]);
+        if (p > 0 && below + p >= order * mass) return threshold_at(i) + grain_ * ((order * mass - below) / p - 0.5);
+        below += p;
+    }
+    return threshold_at(log_posterior_.size() - 1) + grain_ / 2;
+}
+
+Estimate Quest::estimate() const {
+    return {mean_, sd_, quantile(0.025), quantile(0.975)};
 }
 
 void Quest::summarise() {

@@ -1,4 +1,4 @@
-#include "study/quest.h"
+#include "study/engines/quest.h"
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,13 @@
 // off it. The next intensity is the posterior mean, moved by a fixed offset to where a trial tells most about T
 // (for β 3.5, γ .5, δ .01 that is +.064, at Ψ = .908).
 //
-// Accuracy over 2,000 simulated tracks (tests/study/quest_test.cpp): SD of the estimate .056 after 40 trials,
+// Accuracy over 2,000 simulated tracks (tests/study/engines/quest_test.cpp): SD of the estimate .056 after 40 trials,
 // against .0374 for the Fisher bound.
 #pragma once
 
 #include <vector>
 
+#include "study/engines/estimate.h"
 #include "study/psychometric.h"
 
 namespace stairstep {
@@ -39,6 +40,9 @@ class Quest {
     /// Posterior mean and standard deviation of T.
     double mean() const;
     double sd() const;
+    /// T below which `order` of the posterior's mass lies, interpolated between grid points; order in [0, 1].
+    double quantile(double order) const;
+    Estimate estimate() const;
 
     int trials() const { return trials_; }
 
@@ -63,5 +67,7 @@ double most_informative_offset(const PsychometricShape& shape);
 /// That information: 17.789 per squared log10 unit for β 3.5, γ .5, δ .01, p_T .82. No method can estimate T with a
 /// smaller SD than 1/√(n·I + 1/σ₀²).
 double largest_information(const PsychometricShape& shape);
+
+static_assert(AdaptiveEngine<Quest>);
 
 }  // namespace stairstep
