@@ -38,10 +38,10 @@ StudyData read_study(const std::string& path) {
     StudyData study;
     study.source = std::filesystem::path(path).filename().string();
     if (path.ends_with(".csv")) {
-        study.trials = read_trials_csv(path);
+        study.trials = evidence(read_trials_csv(path));
     } else {
         const TrialStore store = TrialStore::open(path);
-        study.trials = store.trials();
+        study.trials = evidence(store.trials());
         study.observer_kind = observer_kind_of(store);
         study.source += " (" + study.observer_kind + " observers)";
     }

@@ -21,8 +21,10 @@ Random::Random(uint64_t seed) : seed_(seed) {
 }
 
 Random Random::stream(uint64_t part) const {
+    // Both are mixed, and differently, so that part 1 of part 2 isn't part 2 of part 1.
+    uint64_t own = seed_;
     uint64_t mixed = part;
-    return Random(seed_ ^ splitmix64(mixed));
+    return Random(splitmix64(own) ^ splitmix64(mixed));
 }
 
 uint64_t Random::bits() {

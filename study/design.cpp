@@ -1,7 +1,12 @@
 #include "study/design.h"
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <limits>
+#include <numbers>
+
+#include "stimuli/error.h"
+#include "stimuli/number.h"
 
 namespace stairstep {
 namespace {
@@ -16,7 +21,61 @@ std::vector<int> latin_square_row(int size, int row) {
     return order;
 }
 
+/// A list that is not empty, holds nothing twice, and only what `is_good` allows.
+template <typename T, typename Require, typename IsGood>
+void require_list(const Require& require, const std::vector<T>& values, const char* field, const char* allowed,
+                  const IsGood& is_good) {
+    require(!values.empty(), field, "is empty", "name at least one");
+    for (auto value = values.begin(); value != values.end(); ++value) {
+        require(is_good(*value), field, std::string("holds a value that isn't ") + allowed, "correct or remove it");
+        require(std::find(values.begin(), value, *value) == value, field, "holds a value twice",
+                "conditions must differ; remove one");
+    }
+}
+
+bool is_positive(double value) {
+    return value > 0 && value <= std::numeric_limits<float>::max();
+}
+
 }  // namespace
+
+double Viewing::pixels_per_degree() const {
+    return 2 * distance_mm * std::tan(std::numbers::pi / 360) / pixel_pitch_mm;
+}
+
+void require_valid(const Design& d, const std::string& source) {
+    const auto require = [&source](bool holds, const char* field, const std::string& problem, const char* remedy) {
+        if (!holds) throw InputError(source + ", \"" + field + "\"", problem, remedy);
+    };
+    require(!d.name.empty(), "name", "is empty", "name the study");
+    require_list(require, d.patterns, "patterns", "step or stair",
+                 [](Pattern p) { return p == Pattern::step || p == Pattern::stair; });
+    require_list(require, d.contrasts, "contrasts", "above 0 and at most 1", [](double c) { return c > 0 && c <= 1; });
+    require_list(require, d.texels_px, "texels_px", "a length above 0 px", is_positive);
+    const double twentieths = d.line_share * 20;
+    require(twentieths > 0.5 && twentieths < 19.5 && std::abs(twentieths - std::round(twentieths)) < 1e-9, "line_share",
+            format_number(d.line_share) + " is no multiple of 0.05 from 0.05 to 0.95", "use 0.5");
+    require(is_positive(d.guess_radius_texels), "guess_radius_texels", "must be above 0", "use for example 3");
+    require(d.stop.least_trials >= 1 && d.stop.least_trials <= d.stop.most_trials && d.stop.most_trials <= 1'000'000,
+            "stop", "needs 1 ≤ least_trials ≤ most_trials ≤ 10^6", "use for example \"most_trials\": 40");
+    require(!d.stop.converged_sd || is_positive(*d.stop.converged_sd), "converged_sd", "must be above 0",
+            "use for example 0.05");
+    require(d.easy.practice_trials >= 0 && d.easy.practice_trials <= 10000, "practice_trials", "must be 0 to 10000",
+            "use for example 8");
+    require(d.easy.catch_share >= 0 && d.easy.catch_share < 0.5, "catch_share", "must be 0 or above and below 0.5",
+            "use for example 0.05");
+    require(is_positive(d.easy.radius_texels), "easy_radius_texels", "must be above 0", "use for example 0.5");
+    require(d.break_every_trials >= 0, "break_every_trials", "must be 0 or above", "use for example 100");
+    require(is_positive(d.smallest_radius_px) && is_positive(d.largest_radius_px) &&
+                d.smallest_radius_px < d.largest_radius_px,
+            "radius_px", "needs two radii above 0 px, the smaller first", "use for example [0.25, 320]");
+    const auto is_side = [](int side) { return side >= 1 && side <= 16384; };
+    require(is_side(d.width_px) && is_side(d.height_px), "size_px", "needs two sides of 1 to 16384 px",
+            "use for example [640, 480]");
+    require(!d.viewing || (is_positive(d.viewing->distance_mm) && is_positive(d.viewing->pixel_pitch_mm)), "viewing",
+            "needs lengths above 0 mm", "use for example {\"distance_mm\": 600, \"pixel_pitch_mm\": 0.25}");
+    RoundEngine(engine_settings(d), 1);  // throws for settings that are out of range
+}
 
 std::vector<Round> rounds_for(const Design& design, int observer_index) {
     std::vector<Round> rounds;
@@ -35,37 +94,10 @@ std::vector<Round> rounds_for(const Design& design, int observer_index) {
     return ordered;
 }
 
-QuestSettings quest_settings(const Design& design) {
-    QuestSettings settings = design.quest;
-    settings.guess = -std::log10(design.guess_radius_texels);
+EngineSettings engine_settings(const Design& design) {
+    EngineSettings settings = design.engine;
+    std::visit([&](auto& s) { s.guess = -std::log10(design.guess_radius_texels); }, settings);
     return settings;
-}
-
-nlohmann::ordered_json to_json(const Design& design) {
-    nlohmann::ordered_json patterns = nlohmann::ordered_json::array();
-    for (const Pattern pattern : design.patterns) patterns.push_back(name(pattern));
-    const QuestSettings& quest = design.quest;
-    return {{"name", design.name},
-            {"patterns", patterns},
-            {"contrasts", design.contrasts},
-            {"texels_px", design.texels_px},
-            {"kernel", name(design.kernel)},
-            {"task", "one interval: was the original a line? lines on half the trials of each track"},
-            {"engine",
-             {{"name", "quest"},
-              {"guess_radius_texels", design.guess_radius_texels},
-              {"guess_sd", quest.guess_sd},
-              {"p_threshold", quest.shape.p_threshold},
-              {"beta", quest.shape.beta},
-              {"gamma", quest.shape.gamma},
-              {"delta", quest.shape.delta},
-              {"grain", quest.grain},
-              {"range", quest.range}}},
-            {"stop",
-             {{"least_trials", design.stop.least_trials},
-              {"most_trials", design.stop.most_trials},
-              {"converged_sd", design.stop.converged_sd}}},
-            {"radius_px", {design.smallest_radius_px, design.largest_radius_px}}};
 }
 
 }  // namespace stairstep

@@ -1,22 +1,44 @@
-// The design of a study: which conditions, in which order, and when a track ends. Defaults are Kreuzer's (2017,
-// chapter 4) with two deviations: lines on half the trials, which γ = ½ needs, and a prior in the unit of the result.
+// The design of a study: what is shown and asked, by which engine, in which order, and when a track ends. Defaults are
+// Kreuzer's (2017, chapter 4) with three deviations: lines on half the trials, which γ = ½ needs, a prior in the unit of the
+// result, and tracks of a fixed length, because observers dislike runs whose end they can't foresee.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "study/engines/quest.h"
+#include "study/engines/round_engine.h"
 #include "study/trial.h"
 
 namespace stairstep {
 
-/// When a track ends: at `most_trials`, or from `least_trials` on as soon as its posterior SD is small enough.
+/// When a track ends: at `most_trials`; with `converged_sd` already from `least_trials` on, once its posterior SD is small
+/// enough. 40 trials a track are 640 an observer, the thesis's 25 minutes.
 struct StopRule {
     int least_trials = 10;
-    int most_trials = 100;
-    /// log10 units. 0.05 takes about 40 trials a track, and 640 trials fit the thesis's 25 minutes an observer.
-    double converged_sd = 0.05;
+    int most_trials = 40;
+    /// log10 units, > 0. 0.05 takes about 40 trials a track.
+    std::optional<double> converged_sd;
+};
+
+/// Trials that are easy to see, apart from the tracks.
+struct EasyTrials {
+    /// Practice: how many before the first round.
+    int practice_trials = 0;
+    /// Catch trials: the chance, below ½, that a presentation of a round is one.
+    double catch_share = 0;
+    /// Their filter radius in texels: half of one leaves the step plain.
+    double radius_texels = 0.5;
+};
+
+/// Where the observer's eyes are.
+struct Viewing {
+    /// From eye to screen, and from one pixel's centre to the next, mm.
+    double distance_mm = 600;
+    double pixel_pitch_mm = 0.25;
+
+    /// Pixels that one degree of visual angle spans at the screen's centre.
+    double pixels_per_degree() const;
 };
 
 struct Design {
@@ -25,14 +47,28 @@ struct Design {
     std::vector<double> contrasts{1, 0.5};
     std::vector<double> texels_px{5, 10, 20, 30};
     KernelShape kernel = KernelShape::box;
-    /// `guess` is set for each track from `guess_radius_texels`: T = −log10(radius/texel).
-    QuestSettings quest;
+    Task task = Task::yes_no;
+    /// yes-no: the share of lines among a track's trials, a multiple of 0.05 within [0.05, 0.95]; γ = ½ asks for ½.
+    double line_share = 0.5;
+    /// Its `guess` is left to `guess_radius_texels`: T = −log10(radius/texel).
+    EngineSettings engine = QuestSettings{};
     double guess_radius_texels = 3;
     StopRule stop;
+    EasyTrials easy;
+    /// A break is due after so many presentations, and before every round; 0: only before rounds.
+    int break_every_trials = 0;
     /// What a display can show, px: suggestions outside are limited to it.
     double smallest_radius_px = 0.25;
     double largest_radius_px = 320;
+    /// Of the picture.
+    int width_px = 640;
+    int height_px = 480;
+    std::optional<Viewing> viewing;
 };
+
+/// Throws InputError naming the first field that is out of its range: an empty list, a condition twice, a share or
+/// probability that can't be. `source` says where the design comes from.
+void require_valid(const Design& design, const std::string& source = "design");
 
 /// One round: tracks that run interleaved.
 struct Round {
@@ -44,9 +80,7 @@ struct Round {
 /// equally often (exactly so for every even number of rounds).
 std::vector<Round> rounds_for(const Design& design, int observer_index);
 
-/// Settings of the engine for one track.
-QuestSettings quest_settings(const Design& design);
-
-nlohmann::ordered_json to_json(const Design& design);
+/// The engine's settings with the design's first guess.
+EngineSettings engine_settings(const Design& design);
 
 }  // namespace stairstep

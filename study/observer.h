@@ -13,7 +13,18 @@ struct Presentation {
     Condition condition;
     double radius_px = 0;
     Judgement stimulus = Judgement::artifact;
+    Task task = Task::yes_no;
+    /// From 1 in the session; a simulated observer's answer depends on it and not on calls made before.
+    int number = 1;
+    /// Presentations since the session's start or last break.
+    int since_break = 0;
+    /// Whether there is an answer that can be taken back.
+    bool may_redo = false;
 };
+
+/// What an observer does when shown something: says what it is, takes the last answer back (which leaves this presentation
+/// unanswered), stops for now, or stops for good.
+enum class Action { answer, redo_last, pause, abort };
 
 struct Answer {
     Judgement response = Judgement::artifact;
@@ -21,6 +32,7 @@ struct Answer {
     /// Onset, Unix time, s.
     double shown_at_s = 0;
     int dropped_frames = 0;
+    Action action = Action::answer;
 };
 
 using Observer = std::function<Answer(const Presentation&)>;

@@ -7,21 +7,26 @@ CREATE TABLE study (
 CREATE TABLE session (
     session INTEGER PRIMARY KEY,
     observer TEXT NOT NULL,
+    observer_index INTEGER NOT NULL, -- from 0; decides the order of rounds
     seed INTEGER NOT NULL,
     observer_kind TEXT NOT NULL,
     observer_settings TEXT NOT NULL -- JSON
 ) STRICT;
 
 CREATE TABLE session_end (
-    session INTEGER PRIMARY KEY REFERENCES session
+    session INTEGER PRIMARY KEY REFERENCES session,
+    outcome TEXT NOT NULL CHECK (outcome IN ('finished', 'aborted'))
 ) STRICT;
 
 CREATE TABLE trial (
     id INTEGER PRIMARY KEY,
     session INTEGER NOT NULL REFERENCES session,
+    presentation INTEGER NOT NULL,  -- from 1 in the session
     round INTEGER NOT NULL,
     track INTEGER NOT NULL,
-    trial INTEGER NOT NULL,
+    trial INTEGER NOT NULL,         -- from 1 in the track; 0 for practice and catch trials
+    kind TEXT NOT NULL CHECK (kind IN ('main', 'practice', 'catch')),
+    task TEXT NOT NULL CHECK (task IN ('yes-no', '2afc')),
     pattern TEXT NOT NULL CHECK (pattern IN ('step', 'stair')),
     kernel TEXT NOT NULL,
     contrast REAL NOT NULL CHECK (contrast > 0 AND contrast <= 1),
@@ -33,7 +38,15 @@ CREATE TABLE trial (
     response_time_s REAL NOT NULL,
     shown_at_s REAL NOT NULL,       -- Unix time
     dropped_frames INTEGER NOT NULL,
-    UNIQUE (session, track, trial)
+    UNIQUE (session, presentation)
+) STRICT;
+
+-- Trials that the observer took back: kept, but no evidence.
+CREATE TABLE void (
+    session INTEGER NOT NULL,
+    presentation INTEGER NOT NULL,
+    PRIMARY KEY (session, presentation),
+    FOREIGN KEY (session, presentation) REFERENCES trial (session, presentation)
 ) STRICT;
 
 -- What was recorded stays as it was.
@@ -41,3 +54,9 @@ CREATE TRIGGER trial_is_final_update BEFORE UPDATE ON trial BEGIN SELECT RAISE(A
 CREATE TRIGGER trial_is_final_delete BEFORE DELETE ON trial BEGIN SELECT RAISE(ABORT, 'trials are append-only'); END;
 CREATE TRIGGER session_is_final_update BEFORE UPDATE ON session BEGIN SELECT RAISE(ABORT, 'sessions are append-only'); END;
 CREATE TRIGGER session_is_final_delete BEFORE DELETE ON session BEGIN SELECT RAISE(ABORT, 'sessions are append-only'); END;
+CREATE TRIGGER void_is_final_update BEFORE UPDATE ON void BEGIN SELECT RAISE(ABORT, 'append-only'); END;
+CREATE TRIGGER void_is_final_delete BEFORE DELETE ON void BEGIN SELECT RAISE(ABORT, 'append-only'); END;
+CREATE TRIGGER session_end_is_final_update BEFORE UPDATE ON session_end BEGIN SELECT RAISE(ABORT, 'append-only'); END;
+CREATE TRIGGER session_end_is_final_delete BEFORE DELETE ON session_end BEGIN SELECT RAISE(ABORT, 'append-only'); END;
+CREATE TRIGGER study_is_final_update BEFORE UPDATE ON study BEGIN SELECT RAISE(ABORT, 'append-only'); END;
+CREATE TRIGGER study_is_final_delete BEFORE DELETE ON study BEGIN SELECT RAISE(ABORT, 'append-only'); END;

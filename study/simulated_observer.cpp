@@ -1,5 +1,6 @@
 #include "study/simulated_observer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,15 @@ void require_valid(const SimulatedPopulation& p) {
             "must be a finite number above 0", "use for example 3.47");
     require(p.between_observer_sd >= 0 && p.between_observer_sd <= 2, "between-observer SD", p.between_observer_sd,
             "must lie in 0 to 2 (of ln c)", "use for example 0.16");
+    require(p.response_bias >= -0.5 && p.response_bias <= 0.5, "response bias", p.response_bias,
+            "must lie in -0.5 to 0.5", "use for example 0.2");
+    require(std::abs(p.drift) <= 10, "drift", p.drift, "must lie in -10 to 10 log10 units a hundred presentations",
+            "use for example 0.02");
+    require(p.fatigue >= 0 && p.fatigue <= 1, "fatigue", p.fatigue, "must lie in 0 to 1", "use for example 0.01");
+    require(p.redo_share >= 0 && p.redo_share <= 0.5, "redo share", p.redo_share, "must lie in 0 to 0.5",
+            "use for example 0.01");
+    require(p.shape.beta > 0 && std::isfinite(p.shape.beta), "steepness", p.shape.beta,
+            "must be a finite number above 0", "use for example 3.5");
     require(is_valid(p.shape), "lapse rate", p.shape.delta, "leaves no threshold at the probability asked for",
             "use for example 0.02");
 }
@@ -34,41 +44,50 @@ nlohmann::ordered_json to_json(const SimulatedPopulation& p) {
             {"beta", p.shape.beta},
             {"gamma", p.shape.gamma},
             {"delta", p.shape.delta},
-            {"p_threshold", p.shape.p_threshold}};
+            {"p_threshold", p.shape.p_threshold},
+            {"response_bias", p.response_bias},
+            {"drift", p.drift},
+            {"fatigue", p.fatigue},
+            {"redo_share", p.redo_share}};
 }
 
 SimulatedObserver::SimulatedObserver(const SimulatedPopulation& population, Random random, double start_s)
     : population_(population),
       traits_(random.stream(1)),
       answers_(random.stream(2)),
-      common_effect_(traits_.normal()),
+      common_effect_(Random(traits_).normal()),
       offset_(threshold_offset(population.shape)),
-      clock_s_(start_s) {}
+      start_s_(start_s) {}
 
-double SimulatedObserver::true_slope(Pattern pattern, double contrast) {
-    const auto [entry, is_new] = slopes_.try_emplace({pattern, contrast});
-    if (is_new) {
-        // A stream of its own for each condition: the slope doesn't depend on the order of the rounds.
-        Random random = traits_.stream(static_cast<uint64_t>(pattern) * 1'000'000 + std::llround(contrast * 1000));
-        const double effect = std::sqrt(population_.common_share) * common_effect_ +
-                              std::sqrt(1 - population_.common_share) * random.normal();
-        entry->second =
-            median_slope(population_, pattern, contrast) * std::exp(population_.between_observer_sd * effect);
-    }
-    return entry->second;
+double SimulatedObserver::true_slope(Pattern pattern, double contrast) const {
+    // A stream of its own for each condition: the slope doesn't depend on the order of the rounds.
+    Random random = traits_.stream(static_cast<uint64_t>(pattern) * 1'000'000 + std::llround(contrast * 1000));
+    const double effect = std::sqrt(population_.common_share) * common_effect_ +
+                          std::sqrt(1 - population_.common_share) * random.normal();
+    return median_slope(population_, pattern, contrast) * std::exp(population_.between_observer_sd * effect);
 }
 
-Answer SimulatedObserver::operator()(const Presentation& shown) {
-    const double threshold = -std::log10(true_slope(shown.condition.pattern, shown.condition.contrast));
+Answer SimulatedObserver::operator()(const Presentation& shown) const {
+    Random random = answers_.stream(static_cast<uint64_t>(shown.number));
+    const double hundreds = (shown.number - 1) / 100.0;
+    const double threshold =
+        -std::log10(true_slope(shown.condition.pattern, shown.condition.contrast)) + population_.drift * hundreds;
     const double strength = std::log10(shown.condition.texel_px / shown.radius_px);
-    const bool correct = answers_.uniform() < probability_correct(population_.shape, offset_, strength, threshold);
-    const Judgement other = shown.stimulus == Judgement::artifact ? Judgement::line : Judgement::artifact;
+    const double lapse = std::min(0.499, population_.shape.delta + population_.fatigue * shown.since_break / 100.0);
 
     Answer answer;
-    answer.response = correct ? shown.stimulus : other;
-    answer.response_time_s = 0.3 + 1.2 * std::exp(0.4 * answers_.normal());
-    answer.shown_at_s = clock_s_;
-    clock_s_ += answer.response_time_s + 0.5;
+    // (1 − δ)(1 − e^−u) of the time the observer sees what it is; else the answer is a guess.
+    const double u = weibull_exponent(population_.shape, offset_, strength, threshold);
+    const double seen = (1 - lapse) * -std::expm1(-u);
+    const bool sees = random.uniform() < seen;
+    const bool prefers_artifact = random.uniform() < 0.5 + population_.response_bias;
+    answer.response = sees ? shown.stimulus : prefers_artifact ? Judgement::artifact : Judgement::line;
+    // The closer to the threshold, the longer it takes (a shifted log-normal, as reaction times are).
+    const double doubt = std::exp(-2 * (strength - threshold) * (strength - threshold));
+    answer.response_time_s = 0.3 + (0.6 + 0.6 * doubt) * std::exp(0.4 * random.normal());
+    // A clock that needs no memory: presentations come every two seconds, give or take.
+    answer.shown_at_s = start_s_ + 2.0 * (shown.number - 1) + 0.2 * random.uniform();
+    if (shown.may_redo && random.uniform() < population_.redo_share) answer.action = Action::redo_last;
     return answer;
 }
 

@@ -2,12 +2,11 @@
 //
 // An observer's true law is r = c·a, with ln c = ln(population slope) + an effect of the observer, part of which
 // holds for all conditions and part for one pattern × contrast. An answer is correct with probability Ψ(log10(a/r)) at
-// T = −log10 c, on artifact and line trials alike (an observer without response bias), lapses included.
+// T = −log10 c, lapses included. Where nothing was seen the observer guesses, with or without a preference, and over a
+// session the threshold may drift and attention tire: what an engine's model of an observer leaves out.
 #pragma once
 
-#include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <utility>
 
 #include "stimuli/random.h"
 #include "study/observer.h"
@@ -25,8 +24,16 @@ struct SimulatedPopulation {
     /// SD of ln c between observers, ≥ 0, and the share of its variance that all conditions have in common.
     double between_observer_sd = 0.16;
     double common_share = 0.75;
-    /// The observers' own psychometric function; p_threshold says what their slope means.
+    /// The observers' own psychometric function; p_threshold says what their slope means. γ is ½: two answers, one right.
     PsychometricShape shape{.beta = 3.5, .gamma = 0.5, .delta = 0.02, .p_threshold = 0.82};
+    /// Who sees nothing says "artifact" with probability ½ + bias; in [−½, ½].
+    double response_bias = 0;
+    /// log10 units by which T rises (the task becomes harder) every hundred presentations.
+    double drift = 0;
+    /// How much the lapse rate grows every hundred presentations without a break, ≥ 0; it stays below ½.
+    double fatigue = 0;
+    /// Share of answers that the observer takes back at once, [0, 0.5].
+    double redo_share = 0;
 };
 
 /// Throws InputError naming a field that is out of its range.
@@ -37,16 +44,17 @@ double median_slope(const SimulatedPopulation& population, Pattern pattern, doub
 
 nlohmann::ordered_json to_json(const SimulatedPopulation& population);
 
-/// One member of the population. Same population and random stream, same answers.
+/// One member of the population. The answer to the n-th presentation depends on the population, the random stream, n and what
+/// is shown, not on the calls before: a session that is resumed gets the answers it would have got.
 class SimulatedObserver {
   public:
     /// `start_s`: when the session begins, Unix time, s; a simulated clock runs from there.
     SimulatedObserver(const SimulatedPopulation& population, Random random, double start_s);
 
-    Answer operator()(const Presentation& presentation);
+    Answer operator()(const Presentation& presentation) const;
 
-    /// The observer's own c for a pattern and contrast, drawn when first asked for.
-    double true_slope(Pattern pattern, double contrast);
+    /// The observer's own c for a pattern and contrast.
+    double true_slope(Pattern pattern, double contrast) const;
 
   private:
     SimulatedPopulation population_;
@@ -54,8 +62,7 @@ class SimulatedObserver {
     Random answers_;
     double common_effect_;
     double offset_;
-    double clock_s_;
-    std::map<std::pair<Pattern, double>, double> slopes_;
+    double start_s_;
 };
 
 }  // namespace stairstep

@@ -11,7 +11,7 @@ namespace {
 
 /// "StSp": tells a Stairstep study from any other SQLite file.
 constexpr int kApplicationId = 0x53745370;
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 
 [[noreturn]] void translate(const std::filesystem::path& path, const SQLite::Exception& e) {
     const std::string problem = e.what();
@@ -109,12 +109,13 @@ TrialStore TrialStore::open(const std::filesystem::path& path) {
 int TrialStore::begin_session(const SessionRecord& session) {
     return guarded([&] {
         SQLite::Statement insert(database_,
-                                 "INSERT INTO session (observer, seed, observer_kind, observer_settings) "
-                                 "VALUES (?, ?, ?, ?)");
+                                 "INSERT INTO session (observer, observer_index, seed, observer_kind, "
+                                 "observer_settings) VALUES (?, ?, ?, ?, ?)");
         insert.bind(1, session.observer);
-        insert.bind(2, static_cast<int64_t>(session.seed));
-        insert.bind(3, session.observer_kind);
-        insert.bind(4, session.observer_settings);
+        insert.bind(2, session.observer_index);
+        insert.bind(3, static_cast<int64_t>(session.seed));
+        insert.bind(4, session.observer_kind);
+        insert.bind(5, session.observer_settings);
         insert.exec();
         return static_cast<int>(database_.getLastInsertRowid());
     });
@@ -122,34 +123,54 @@ int TrialStore::begin_session(const SessionRecord& session) {
 
 void TrialStore::append(const Trial& trial) {
     guarded([&] {
-        SQLite::Statement insert(database_,
-                                 "INSERT INTO trial (session, round, track, trial, pattern, kernel, contrast, "
-                                 "texel_px, suggested_radius_px, "
-                                 "radius_px, stimulus, response, response_time_s, shown_at_s, dropped_frames) "
-                                 "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-        insert.bind(1, trial.session);
-        insert.bind(2, trial.round);
-        insert.bind(3, trial.track);
-        insert.bind(4, trial.trial);
-        insert.bind(5, std::string(name(trial.condition.pattern)));
-        insert.bind(6, std::string(name(trial.condition.kernel)));
-        insert.bind(7, trial.condition.contrast);
-        insert.bind(8, trial.condition.texel_px);
-        insert.bind(9, trial.suggested_radius_px);
-        insert.bind(10, trial.radius_px);
-        insert.bind(11, std::string(name(trial.stimulus)));
-        insert.bind(12, std::string(name(trial.response)));
-        insert.bind(13, trial.response_time_s);
-        insert.bind(14, trial.shown_at_s);
-        insert.bind(15, trial.dropped_frames);
+        if (!append_) {
+            append_ = std::make_unique<SQLite::Statement>(
+                database_,
+                "INSERT INTO trial (session, presentation, round, track, trial, kind, task, pattern, kernel, contrast, "
+                "texel_px, suggested_radius_px, radius_px, stimulus, response, response_time_s, shown_at_s, "
+                "dropped_frames) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        }
+        SQLite::Statement& insert = *append_;
+        insert.reset();
+        int column = 0;
+        const auto bind = [&](const auto& value) { insert.bind(++column, value); };
+        bind(trial.session);
+        bind(trial.presentation);
+        bind(trial.round);
+        bind(trial.track);
+        bind(trial.trial);
+        bind(std::string(name(trial.kind)));
+        bind(std::string(name(trial.task)));
+        bind(std::string(name(trial.condition.pattern)));
+        bind(std::string(name(trial.condition.kernel)));
+        bind(trial.condition.contrast);
+        bind(trial.condition.texel_px);
+        bind(trial.suggested_radius_px);
+        bind(trial.radius_px);
+        bind(std::string(name(trial.stimulus)));
+        bind(std::string(name(trial.response)));
+        bind(trial.response_time_s);
+        bind(trial.shown_at_s);
+        bind(trial.dropped_frames);
         insert.exec();  // a statement outside a transaction commits by itself
+        insert.reset();
     });
 }
 
-void TrialStore::finish_session(int session) {
+void TrialStore::mark_void(int session, int presentation) {
     guarded([&] {
-        SQLite::Statement insert(database_, "INSERT INTO session_end VALUES (?)");
+        SQLite::Statement insert(database_, "INSERT INTO void VALUES (?, ?)");
         insert.bind(1, session);
+        insert.bind(2, presentation);
+        insert.exec();
+    });
+}
+
+void TrialStore::end_session(int session, SessionEnd end) {
+    guarded([&] {
+        SQLite::Statement insert(database_, "INSERT INTO session_end VALUES (?, ?)");
+        insert.bind(1, session);
+        insert.bind(2, end == SessionEnd::finished ? "finished" : "aborted");
         insert.exec();
     });
 }
@@ -166,12 +187,20 @@ std::vector<SessionRecord> TrialStore::sessions() const {
     return guarded([&] {
         std::vector<SessionRecord> sessions;
         SQLite::Statement query(database_,
-                                "SELECT session, observer, seed, observer_kind, observer_settings, "
-                                "session IN (SELECT session FROM session_end) FROM session ORDER BY session");
+                                "SELECT session, observer, observer_index, seed, observer_kind, observer_settings, "
+                                "outcome FROM session LEFT JOIN session_end USING (session) ORDER BY session");
         while (query.executeStep()) {
-            sessions.push_back({query.getColumn(0).getInt(), query.getColumn(1).getString(),
-                                static_cast<uint64_t>(query.getColumn(2).getInt64()), query.getColumn(3).getString(),
-                                query.getColumn(4).getString(), query.getColumn(5).getInt() != 0});
+            SessionRecord session{query.getColumn(0).getInt(),
+                                  query.getColumn(1).getString(),
+                                  query.getColumn(2).getInt(),
+                                  static_cast<uint64_t>(query.getColumn(3).getInt64()),
+                                  query.getColumn(4).getString(),
+                                  query.getColumn(5).getString(),
+                                  std::nullopt};
+            if (!query.getColumn(6).isNull()) {
+                session.end = query.getColumn(6).getString() == "finished" ? SessionEnd::finished : SessionEnd::aborted;
+            }
+            sessions.push_back(session);
         }
         return sessions;
     });
@@ -183,30 +212,46 @@ std::vector<Trial> TrialStore::trials() const {
         std::vector<Trial> trials;
         SQLite::Statement query(
             database_,
-            "SELECT observer, session, round, track, trial, pattern, kernel, contrast, texel_px, suggested_radius_px, "
-            "radius_px, stimulus, response, response_time_s, shown_at_s, dropped_frames "
+            "SELECT observer, session, presentation, round, track, trial, kind, task, pattern, kernel, contrast, "
+            "texel_px, suggested_radius_px, radius_px, stimulus, response, response_time_s, shown_at_s, "
+            "dropped_frames, (session, presentation) IN (SELECT session, presentation FROM void) "
             "FROM trial JOIN session USING (session) ORDER BY id");
         while (query.executeStep()) {
-            const auto text = [&query](int column) { return query.getColumn(column).getString(); };
-            const auto kernel = kernel_shape_named(text(6));
-            if (!kernel)
-                throw InputError(path_.string(), "names the kernel \"" + text(6) + "\"", "use a newer Stairstep");
+            int column = 0;
+            const auto text = [&] { return query.getColumn(column++).getString(); };
+            const auto number = [&] { return query.getColumn(column++).getDouble(); };
+            const auto count = [&] { return query.getColumn(column++).getInt(); };
+            // A word that the schema's checks don't hold back comes from a newer program.
+            const auto known = [&](const auto& value, const std::string& word) {
+                if (!value) throw InputError(path_.string(), "says \"" + word + "\"", "use a newer Stairstep");
+                return *value;
+            };
+            const auto named = [&](const auto& parse) {
+                const std::string word = text();
+                return known(parse(word), word);
+            };
             Trial trial;
             trial.study = study_name;
-            trial.observer = text(0);
-            trial.session = query.getColumn(1).getInt();
-            trial.round = query.getColumn(2).getInt();
-            trial.track = query.getColumn(3).getInt();
-            trial.trial = query.getColumn(4).getInt();
-            trial.condition = {pattern_from(text(5)), *kernel, query.getColumn(7).getDouble(),
-                               query.getColumn(8).getDouble()};
-            trial.suggested_radius_px = query.getColumn(9).getDouble();
-            trial.radius_px = query.getColumn(10).getDouble();
-            trial.stimulus = *judgement_named(text(11));
-            trial.response = *judgement_named(text(12));
-            trial.response_time_s = query.getColumn(13).getDouble();
-            trial.shown_at_s = query.getColumn(14).getDouble();
-            trial.dropped_frames = query.getColumn(15).getInt();
+            trial.observer = text();
+            trial.session = count();
+            trial.presentation = count();
+            trial.round = count();
+            trial.track = count();
+            trial.trial = count();
+            trial.kind = named(trial_kind_named);
+            trial.task = named(task_named);
+            trial.condition.pattern = pattern_from(text());
+            trial.condition.kernel = named(kernel_shape_named);
+            trial.condition.contrast = number();
+            trial.condition.texel_px = number();
+            trial.suggested_radius_px = number();
+            trial.radius_px = number();
+            trial.stimulus = named(judgement_named);
+            trial.response = named(judgement_named);
+            trial.response_time_s = number();
+            trial.shown_at_s = number();
+            trial.dropped_frames = count();
+            trial.is_void = count() != 0;
             trials.push_back(trial);
         }
         return trials;

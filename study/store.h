@@ -8,6 +8,8 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,16 +17,22 @@
 
 namespace stairstep {
 
+/// How a session ended.
+enum class SessionEnd { finished, aborted };
+
 /// A session as stored.
 struct SessionRecord {
     /// From 1.
     int session = 1;
     std::string observer;
+    /// From 0; decides the order of the rounds.
+    int observer_index = 0;
     uint64_t seed = 0;
     /// "simulated" or "person", and what else it takes to replay it, as JSON.
     std::string observer_kind;
     std::string observer_settings;
-    bool finished = false;
+    /// Empty while the session can go on.
+    std::optional<SessionEnd> end;
 };
 
 /// All members throw InputError for a file that is missing, damaged, no Stairstep study or of a newer schema, and
@@ -44,13 +52,16 @@ class TrialStore {
     /// Records a trial of a session that has begun. Durable on return.
     void append(const Trial& trial);
 
-    /// Marks a session as gone through to its end.
-    void finish_session(int session);
+    /// Marks a recorded trial as taken back. Durable on return.
+    void mark_void(int session, int presentation);
+
+    /// Nothing more will be recorded in a session.
+    void end_session(int session, SessionEnd end);
 
     std::string study() const;
     std::string design_json() const;
     std::vector<SessionRecord> sessions() const;
-    /// All trials in the order in which they were recorded.
+    /// All trials in the order in which they were recorded, void ones included.
     std::vector<Trial> trials() const;
 
   private:
@@ -61,6 +72,8 @@ class TrialStore {
 
     std::filesystem::path path_;
     SQLite::Database database_;
+    /// Prepared once; after the database, which must outlive it.
+    std::unique_ptr<SQLite::Statement> append_;
 };
 
 }  // namespace stairstep

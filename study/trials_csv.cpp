@@ -52,9 +52,14 @@ class TrialReader {
         trial.suggested_radius_px = optional_number(row, "suggested_radius_px", trial.radius_px);
         trial.response_time_s = optional_number(row, "response_time_s", 0);
         trial.session = optional_count(row, "session");
+        trial.presentation = optional_count(row, "presentation");
+        read_optional_name(row, "kind", trial.kind, trial_kind_named, "write main, practice or catch");
+        read_optional_name(row, "task", trial.task, task_named, "write yes-no or 2afc");
+        trial.is_void = optional_number(row, "void", 0) != 0;
         trial.round = optional_count(row, "round");
         trial.track = optional_count(row, "track");
-        trial.trial = optional_count(row, "trial");
+        // Practice and catch trials have no number in their track.
+        trial.trial = trial.kind == TrialKind::main ? optional_count(row, "trial") : 0;
         return trial;
     }
 
@@ -94,6 +99,16 @@ class TrialReader {
         return column ? table_.number(row, *column) : otherwise;
     }
 
+    template <typename T, typename Parse>
+    void read_optional_name(size_t row, const char* column_name, T& value, const Parse& parse,
+                            const char* remedy) const {
+        const auto column = table_.find_column(column_name);
+        if (!column) return;
+        const auto parsed = parse(table_.text(row, *column));
+        if (!parsed) table_.reject(row, *column, "\"" + table_.text(row, *column) + "\" is unknown", remedy);
+        value = *parsed;
+    }
+
     int optional_count(size_t row, const char* column_name) const {
         const auto column = table_.find_column(column_name);
         if (!column) return 1;
@@ -113,16 +128,51 @@ class TrialReader {
 
 std::string trials_csv(const std::vector<Trial>& trials) {
     CsvWriter csv;
-    csv.row({"study", "observer", "session", "round", "track", "trial", "pattern", "kernel", "contrast", "texel_px",
-             "suggested_radius_px", "radius_px", "stimulus", "response", "correct", "response_time_s", "shown_at",
-             "dropped_frames"});
+    csv.row({"study",
+             "observer",
+             "session",
+             "round",
+             "track",
+             "trial",
+             "pattern",
+             "kernel",
+             "contrast",
+             "texel_px",
+             "suggested_radius_px",
+             "radius_px",
+             "stimulus",
+             "response",
+             "correct",
+             "response_time_s",
+             "shown_at",
+             "dropped_frames",
+             "presentation",
+             "kind",
+             "task",
+             "void"});
     for (const Trial& t : trials) {
-        csv.row({t.study, t.observer, std::to_string(t.session), std::to_string(t.round), std::to_string(t.track),
-                 std::to_string(t.trial), std::string(name(t.condition.pattern)), std::string(name(t.condition.kernel)),
-                 format_number(t.condition.contrast), format_number(t.condition.texel_px),
-                 format_number(t.suggested_radius_px), format_number(t.radius_px), std::string(name(t.stimulus)),
-                 std::string(name(t.response)), t.correct() ? "1" : "0", format_fixed(t.response_time_s, 4),
-                 iso_time(t.shown_at_s), std::to_string(t.dropped_frames)});
+        csv.row({t.study,
+                 t.observer,
+                 std::to_string(t.session),
+                 std::to_string(t.round),
+                 std::to_string(t.track),
+                 std::to_string(t.trial),
+                 std::string(name(t.condition.pattern)),
+                 std::string(name(t.condition.kernel)),
+                 format_number(t.condition.contrast),
+                 format_number(t.condition.texel_px),
+                 format_number(t.suggested_radius_px),
+                 format_number(t.radius_px),
+                 std::string(name(t.stimulus)),
+                 std::string(name(t.response)),
+                 t.correct() ? "1" : "0",
+                 format_fixed(t.response_time_s, 4),
+                 iso_time(t.shown_at_s),
+                 std::to_string(t.dropped_frames),
+                 std::to_string(t.presentation),
+                 std::string(name(t.kind)),
+                 std::string(name(t.task)),
+                 t.is_void ? "1" : "0"});
     }
     return csv.text();
 }

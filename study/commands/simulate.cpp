@@ -6,6 +6,7 @@
 
 #include "stimuli/io/progress.h"
 #include "study/commands/commands.h"
+#include "study/design_json.h"
 #include "study/session.h"
 #include "study/simulated_observer.h"
 #include "study/store.h"
@@ -42,14 +43,18 @@ void simulate(const SimulateOptions& options) {
     for (int i = 0; i < options.observers; ++i) {
         Random random = Random(options.seed).stream(static_cast<uint64_t>(i));
         SessionIdentity identity{observer_name(i), i, 1, random.bits() >> 1};
-        identity.session = store.begin_session({1, identity.observer, identity.seed, "simulated", settings, false});
-        SimulatedObserver observer(options.population, random.stream(0), kSimulatedEpoch_s + i * kDay_s);
-        run_session(design, identity, std::ref(observer), [&](const Trial& trial) {
-            store.append(trial);
-            ++trials;
-            if (trial.trial == 1) progress.advance();
-        });
-        store.finish_session(identity.session);
+        identity.session =
+            store.begin_session({1, identity.observer, i, identity.seed, "simulated", settings, std::nullopt});
+        const SimulatedObserver observer(options.population, random.stream(0), kSimulatedEpoch_s + i * kDay_s);
+        Session session(design, identity);
+        run_session(session, observer,
+                    {[&](const Trial& trial) {
+                         store.append(trial);
+                         ++trials;
+                         if (trial.trial == 1) progress.advance();
+                     },
+                     [&](int presentation) { store.mark_void(identity.session, presentation); }});
+        store.end_session(identity.session, SessionEnd::finished);
     }
     std::cout << "simulated " << options.observers << " observers, " << trials << " trials, into " << options.database
               << "\n";

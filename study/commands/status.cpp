@@ -26,7 +26,7 @@ void print_status(const std::string& database, bool as_json) {
                             {"observer", session.observer},
                             {"kind", session.observer_kind},
                             {"trials", count},
-                            {"finished", session.finished}});
+                            {"finished", session.end.has_value()}});
     }
     if (as_json) {
         std::cout << nlohmann::ordered_json{{"study", store.study()}, {"trials", trials.size()}, {"sessions", sessions}}

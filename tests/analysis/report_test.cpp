@@ -19,8 +19,8 @@ class Report : public testing::Test {
     static void SetUpTestSuite() {
         for (int i = 0; i < 3; ++i) {
             SimulatedObserver observer({}, Random(static_cast<uint64_t>(i)), 0);
-            run_session({}, {"<o" + std::to_string(i) + ">", i, i + 1, 7}, std::ref(observer),
-                        [](const Trial& trial) { trials_.push_back(trial); });
+            Session session({}, {"<o" + std::to_string(i) + ">", i, i + 1, 7});
+            run_session(session, observer, {[](const Trial& trial) { trials_.push_back(trial); }});
         }
         fit_ = fit_law(trials_, 0.82, "a & b");
     }

@@ -54,10 +54,10 @@ void make_small_study(const std::filesystem::path& folder) {
     for (int i = 0; i < 2; ++i) {
         SimulatedObserver observer({}, Random(static_cast<uint64_t>(i)), 0);
         const std::string name = "o" + std::to_string(i);
-        const int session = store.begin_session({1, name, 1, "simulated", "{}", false});
-        run_session(design, {name, i, session, 1}, std::ref(observer),
-                    [&](const Trial& trial) { store.append(trial); });
-        store.finish_session(session);
+        const int session = store.begin_session({1, name, i, 1, "simulated", "{}", std::nullopt});
+        Session run(design, {name, i, session, 1});
+        run_session(run, observer, {[&](const Trial& trial) { store.append(trial); }});
+        store.end_session(session, SessionEnd::finished);
     }
     write_file(folder / "good.csv", trials_csv(store.trials()));
 }

@@ -30,7 +30,8 @@ TEST(PlantedLaw, IsRecoveredWithoutBiasAndCovered) {
             Random random = Random(2017 + study).stream(static_cast<uint64_t>(i));
             const SessionIdentity identity{"o" + std::to_string(i), i, 1, random.bits()};
             SimulatedObserver observer(population, random.stream(0), 0);
-            run_session({}, identity, std::ref(observer), [&](const Trial& trial) { trials.push_back(trial); });
+            Session session({}, identity);
+            run_session(session, observer, {[&](const Trial& trial) { trials.push_back(trial); }});
         }
         const LawFit fit = fit_law(trials, 0.82, "simulated");
         ASSERT_EQ(fit.law.conditions.size(), 4u);

@@ -41,7 +41,7 @@ TEST(Design, BalancesTheOrderOfRoundsOverObservers) {
 }
 
 TEST(Design, GuessesThreeTexels) {
-    EXPECT_NEAR(quest_settings(Design()).guess, -std::log10(3), 1e-15);
+    EXPECT_NEAR(std::get<QuestSettings>(engine_settings(Design())).guess, -std::log10(3), 1e-15);
 }
 
 }  // namespace

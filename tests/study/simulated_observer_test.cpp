@@ -17,9 +17,59 @@ TEST(SimulatedObserver, AnswersRightAtThresholdAsOftenAsTheThresholdSays) {
     constexpr int kTrials = 40000;
     for (int i = 0; i < kTrials; ++i) {
         const Judgement shown = i % 2 == 0 ? Judgement::artifact : Judgement::line;
-        correct += observer({condition, radius, shown}).response == shown;
+        correct += observer({condition, radius, shown, Task::yes_no, i + 1}).response == shown;
     }
     EXPECT_NEAR(correct / static_cast<double>(kTrials), 0.82, 5 * std::sqrt(0.82 * 0.18 / kTrials));
+}
+
+/// Share of right answers to artifacts and to lines, at a radius in units of the observer's own threshold.
+std::pair<double, double> shares_right(const SimulatedPopulation& population, double relative_radius, int since_break,
+                                       int first_number = 1) {
+    const SimulatedObserver observer(population, Random(1), 0);
+    const double radius = 10 * observer.true_slope(Pattern::step, 1) * relative_radius;
+    constexpr int kTrials = 40000;
+    int right[2] = {};
+    for (int i = 0; i < kTrials; ++i) {
+        const Judgement shown = i % 2 == 0 ? Judgement::artifact : Judgement::line;
+        const Answer answer = observer(
+            {{Pattern::step, KernelShape::box, 1, 10}, radius, shown, Task::yes_no, first_number + i, since_break});
+        right[i % 2] += answer.response == shown;
+    }
+    return {right[0] / (kTrials / 2.0), right[1] / (kTrials / 2.0)};
+}
+
+TEST(SimulatedObserver, LeansTowardsOneAnswerWhereNothingIsSeen) {
+    // At ten times the threshold radius next to nothing is seen: "artifact" comes with probability 0.5 + bias.
+    const auto [artifact, line] = shares_right({.response_bias = 0.3}, 10, 0);
+    EXPECT_NEAR(artifact, 0.8, 0.015);
+    EXPECT_NEAR(line, 0.2, 0.015);
+    // The mean over both is that of an unbiased observer.
+    const auto [artifact_at, line_at] = shares_right({.response_bias = 0.3}, 1, 0);
+    EXPECT_NEAR((artifact_at + line_at) / 2, 0.82, 0.01);
+}
+
+TEST(SimulatedObserver, TiresAndRecovers) {
+    // Far below threshold all errors are lapses, half of them right by chance: δ .02 and after 100 presentations .12.
+    const SimulatedPopulation population{.fatigue = 0.1};
+    EXPECT_NEAR(shares_right(population, 0.1, 0).first, 0.99, 0.005);
+    EXPECT_NEAR(shares_right(population, 0.1, 100).first, 0.94, 0.01);
+}
+
+TEST(SimulatedObserver, DriftMovesTheThreshold) {
+    // T rises by drift × hundreds of presentations: a radius smaller by that much is then at threshold.
+    SimulatedPopulation population{.drift = 0.001};
+    const auto [artifact, line] = shares_right(population, std::pow(10, -0.001 * 1000.0), 0, 100'001 - 20'000);
+    EXPECT_NEAR((artifact + line) / 2, 0.82, 0.02);
+}
+
+TEST(SimulatedObserver, AnswersDependOnTheNumberOfThePresentationAlone) {
+    const SimulatedObserver observer({}, Random(5), 0);
+    const Presentation shown{{Pattern::step, KernelShape::box, 1, 10}, 34, Judgement::line, Task::yes_no, 17};
+    const Answer first = observer(shown);
+    for (int i = 0; i < 5; ++i) observer({shown.condition, 20, Judgement::artifact, Task::yes_no, i + 1});
+    const Answer again = observer(shown);
+    EXPECT_EQ(first.response, again.response);
+    EXPECT_EQ(first.response_time_s, again.response_time_s);
 }
 
 TEST(SimulatedObserver, SlopesScatterAsThePopulationSays) {
@@ -48,7 +98,9 @@ TEST(SimulatedObserver, RefusesImpossiblePopulations) {
     for (const auto& spoil : std::vector<void (*)(SimulatedPopulation&)>{
              [](SimulatedPopulation& p) { p.step_slope = 0; }, [](SimulatedPopulation& p) { p.step_slope = NAN; },
              [](SimulatedPopulation& p) { p.between_observer_sd = -1; },
-             [](SimulatedPopulation& p) { p.shape.delta = 0.9; }}) {
+             [](SimulatedPopulation& p) { p.shape.delta = 0.9; }, [](SimulatedPopulation& p) { p.shape.beta = 0; },
+             [](SimulatedPopulation& p) { p.response_bias = 0.6; }, [](SimulatedPopulation& p) { p.fatigue = -1; },
+             [](SimulatedPopulation& p) { p.drift = NAN; }, [](SimulatedPopulation& p) { p.redo_share = 1; }}) {
         SimulatedPopulation population;
         spoil(population);
         EXPECT_THROW(require_valid(population), InputError);

@@ -20,6 +20,7 @@ Trial some_trial(int session, int number) {
     trial.session = session;
     trial.track = 3;
     trial.trial = number;
+    trial.presentation = number;
     trial.condition = {Pattern::stair, KernelShape::box, 0.5, 20};
     trial.suggested_radius_px = 50.1;
     trial.radius_px = 50.1 / number;
@@ -37,12 +38,12 @@ TEST(TrialStore, ReadsBackWhatWasRecorded) {
     std::vector<Trial> recorded;
     {
         TrialStore store = TrialStore::create(path, "s", "{\"a\":1}");
-        const int session = store.begin_session({1, "o1", 42, "simulated", "{}", false});
+        const int session = store.begin_session({1, "o1", 0, 42, "simulated", "{}", std::nullopt});
         for (int i = 1; i <= 5; ++i) {
             recorded.push_back(some_trial(session, i));
             store.append(recorded.back());
         }
-        store.finish_session(session);
+        store.end_session(session, SessionEnd::finished);
     }
     TrialStore store = TrialStore::open(path);
     EXPECT_THROW(store.append(some_trial(1, 6)), FailureError);  // opened to read
@@ -51,7 +52,7 @@ TEST(TrialStore, ReadsBackWhatWasRecorded) {
     EXPECT_EQ(store.design_json(), "{\"a\":1}");
     ASSERT_EQ(store.sessions().size(), 1u);
     EXPECT_EQ(store.sessions()[0].seed, 42u);
-    EXPECT_TRUE(store.sessions()[0].finished);
+    EXPECT_EQ(store.sessions()[0].end, SessionEnd::finished);
 }
 
 TEST(TrialStore, LeavesOneFileBehindWhoeverReadsIt) {
@@ -81,7 +82,7 @@ TEST(TrialStore, LosesNoAcknowledgedTrialWhenKilled) {
         if (child == 0) {
             close(acknowledged[0]);
             TrialStore store = TrialStore::create(path, "s", "{}");
-            const int session = store.begin_session({1, "o1", 1, "simulated", "{}", false});
+            const int session = store.begin_session({1, "o1", 0, 1, "simulated", "{}", std::nullopt});
             for (int i = 1;; ++i) {
                 store.append(some_trial(session, i));
                 if (write(acknowledged[1], "x", 1) != 1) _exit(1);
@@ -110,7 +111,7 @@ TEST(TrialStore, IsNeverOverwrittenNorChanged) {
     const auto path = folder.path() / "study.sqlite";
     {
         TrialStore store = TrialStore::create(path, "s", "{}");
-        const int session = store.begin_session({1, "o1", 1, "simulated", "{}", false});
+        const int session = store.begin_session({1, "o1", 0, 1, "simulated", "{}", std::nullopt});
         store.append(some_trial(session, 1));
         EXPECT_THROW(store.append(some_trial(session, 1)), InputError);      // the same trial twice
         EXPECT_THROW(store.append(some_trial(session + 1, 1)), InputError);  // a session that never began
@@ -142,7 +143,7 @@ TEST(TrialStore, RefusesATruncatedDatabaseAndANewerSchema) {
     const auto path = folder.path() / "study.sqlite";
     {
         TrialStore store = TrialStore::create(path, "s", "{}");
-        const int session = store.begin_session({1, "o1", 1, "simulated", "{}", false});
+        const int session = store.begin_session({1, "o1", 0, 1, "simulated", "{}", std::nullopt});
         for (int i = 1; i < 200; ++i) store.append(some_trial(session, i));
     }
     const std::string bytes = read_file(path);

@@ -35,11 +35,14 @@ TEST_F(TrialsCsv, HasTheContractsColumnsAndReadsBack) {
     trial.suggested_radius_px = 20.123456789012345;
     trial.radius_px = 20;
     trial.shown_at_s = 1700000000.1234;
+    trial.presentation = 9;
+    trial.task = Task::two_alternative;
+    trial.is_void = true;
     const std::string text = trials_csv({trial});
     EXPECT_TRUE(
         text.starts_with("study,observer,session,round,track,trial,pattern,kernel,contrast,texel_px,"
                          "suggested_radius_px,radius_px,stimulus,response,correct,response_time_s,shown_at,"
-                         "dropped_frames\n"));
+                         "dropped_frames,presentation,kind,task,void\n"));
     EXPECT_NE(text.find("2023-11-14T22:13:20.123Z"), std::string::npos) << text;
     const std::vector<Trial> back = read(text);
     ASSERT_EQ(back.size(), 1u);
@@ -47,6 +50,10 @@ TEST_F(TrialsCsv, HasTheContractsColumnsAndReadsBack) {
     EXPECT_EQ(back[0].condition, trial.condition);
     EXPECT_EQ(back[0].suggested_radius_px, trial.suggested_radius_px);
     EXPECT_EQ(back[0].radius_px, trial.radius_px);
+    EXPECT_EQ(back[0].presentation, 9);
+    EXPECT_EQ(back[0].task, Task::two_alternative);
+    EXPECT_TRUE(back[0].is_void);
+    EXPECT_TRUE(evidence(back).empty());
 }
 
 TEST_F(TrialsCsv, NeedsEightColumnsAlone) {

@@ -1,0 +1,98 @@
+#include "study/design_json.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "stimuli/error.h"
+
+namespace stairstep {
+namespace {
+
+TEST(DesignJson, AnEmptyObjectIsTheThesissDesign) {
+    EXPECT_EQ(to_json(design_from_json("{}", "empty")).dump(), to_json(Design()).dump());
+}
+
+TEST(DesignJson, ReadsBackWhatItWrites) {
+    Design design;
+    design.name = "pilot";
+    design.patterns = {Pattern::stair};
+    design.contrasts = {0.3};
+    design.texels_px = {7.5, 12};
+    design.kernel = KernelShape::disk;
+    design.task = Task::two_alternative;
+    design.guess_radius_texels = 2.5;
+    std::get<QuestSettings>(design.engine).shape.beta = 2;
+    std::get<QuestSettings>(design.engine).guess_sd = 0.3;
+    design.stop = {5, 60, 0.07};
+    design.easy = {8, 0.05, 0.25};
+    design.break_every_trials = 100;
+    design.smallest_radius_px = 1;
+    design.largest_radius_px = 99;
+    design.width_px = 800;
+    design.height_px = 600;
+    design.viewing = Viewing{700, 0.27};
+    const std::string text = to_json(design).dump(2);
+    const Design back = design_from_json(text, "design.json");
+    EXPECT_EQ(to_json(back).dump(2), text);
+    EXPECT_EQ(std::get<QuestSettings>(back.engine).shape.beta, 2);
+    EXPECT_EQ(back.task, Task::two_alternative);
+    EXPECT_EQ(back.stop.converged_sd, 0.07);
+}
+
+TEST(DesignJson, AskingForFewTrialsIsEnough) {
+    EXPECT_EQ(design_from_json(R"({"stop": {"most_trials": 2}})", "d").stop.least_trials, 2);
+}
+
+TEST(DesignJson, PixelsPerDegreeFollowFromTheGeometry) {
+    // At 57.29 cm a degree is 1 cm on the screen: 40 pixels of 0.25 mm.
+    EXPECT_NEAR((Viewing{572.9, 0.25}.pixels_per_degree()), 40, 0.01);
+}
+
+TEST(DesignJson, RefusesWhatCannotBe) {
+    const std::vector<std::pair<const char*, const char*>> faults{
+        {R"({"texel_px": [5]})", "texel_px"},
+        {R"({"texels_px": [5, 10, 5]})", "texels_px"},
+        {R"({"texels_px": []})", "texels_px"},
+        {R"({"texels_px": [5, -1]})", "texels_px"},
+        {R"({"texels_px": [5, "10"]})", "texels_px"},
+        {R"({"texels_px": 5})", "texels_px"},
+        {R"({"contrasts": [1, 0.5, 1]})", "contrasts"},
+        {R"({"contrasts": [1.5]})", "contrasts"},
+        {R"({"patterns": ["step", "step"]})", "patterns"},
+        {R"({"patterns": ["line"]})", "patterns"},
+        {R"({"kernel": "triangle"})", "kernel"},
+        {R"({"name": ""})", "name"},
+        {R"({"task": {"name": "3afc"}})", "name"},
+        {R"({"task": {"line_share": 0.33}})", "line_share"},
+        {R"({"task": {"line_share": 1}})", "line_share"},
+        {R"({"engine": {"name": "guesswork"}})", "name"},
+        {R"({"engine": {"betta": 3}})", "betta"},
+        {R"({"engine": {"beta": -3}})", "psychometric shape"},
+        {R"({"engine": {"guess_sd": 0}})", "guess SD"},
+        {R"({"stop": {"most_trials": 0}})", "stop"},
+        {R"({"stop": {"most_trials": 2.5}})", "most_trials"},
+        {R"({"stop": {"least_trials": 50}})", "stop"},
+        {R"({"stop": {"converged_sd": 0}})", "converged_sd"},
+        {R"({"catch_share": 0.7})", "catch_share"},
+        {R"({"practice_trials": -1})", "practice_trials"},
+        {R"({"radius_px": [5]})", "radius_px"},
+        {R"({"radius_px": [50, 5]})", "radius_px"},
+        {R"({"size_px": [640, 1e300]})", "size_px"},
+        {R"({"viewing": {"distance_mm": 0}})", "viewing"},
+        {R"([])", "d.json"},
+        {R"({"name": )", "d.json"},
+    };
+    for (const auto& [text, named] : faults) {
+        try {
+            design_from_json(text, "d.json");
+            ADD_FAILURE() << "took " << text;
+        } catch (const InputError& e) {
+            EXPECT_NE(std::string(e.what()).find(named), std::string::npos) << text << " gives: " << e.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stairstep
