@@ -57,10 +57,6 @@ Point pixel_centre(const Stimulus& stimulus, int column, int row) {
     return {column + 0.5 - stimulus.width_px / 2.0, stimulus.height_px / 2.0 - row - 0.5};
 }
 
-int level_8bit(double luminance) {
-    return static_cast<int>(std::floor(luminance * 255 + 0.5 + 1e-9));
-}
-
 std::string file_stem(const Stimulus& stimulus) {
     std::string silhouette(name(stimulus.silhouette));
     if (stimulus.silhouette == Pattern::slope) silhouette += format_number(stimulus.slope);

@@ -52,7 +52,9 @@ std::vector<double> luminance(const Stimulus& stimulus);
 
 /// Nearest 8-bit level of a luminance in [0, 1]. Ties go up, and what lies within 10⁻⁹ of one is a tie: half a luminance of 1
 /// is level 128 wherever rounding left the visibility at 1 − 10⁻¹⁶.
-int level_8bit(double luminance);
+inline int level_8bit(double luminance) {
+    return static_cast<int>(luminance * 255 + 0.5 + 1e-9);
+}
 
 /// A name that tells the stimulus apart, without extension: "step_box_a10_r35_c1", "line-of-stair_box_…".
 std::string file_stem(const Stimulus& stimulus);

@@ -2,16 +2,15 @@
 //
 //   V(p) = ∫ k_r(q)·χ(p + q) dq,   χ = 1 on and above the edge, 0 below
 //
-// A sampled edge is a staircase, so the integral is a sum over its columns; a line is a half-plane. In units of r and
-// relative to p, with h a column's height and [b, e] its part under the kernel:
+// A sampled edge is a staircase: the integral is a sum over its corners under the kernel (quarter_mass.h), in closed form
+// for a stair under the box, where the cost depends neither on r nor on a. A line is a half-plane:
 //
-//   box       ½(e − b)·(1 − h)/2, h limited to [−1, 1]; the columns of step and stair add up in closed form, so the cost
-//             depends neither on r nor on a. Line: the area of a square under a line.
-//   gaussian  [Φ(e) − Φ(b)]·[1 − Φ(h)], Φ the cumulative normal of σ = ½, cut at ±1.5 and renormalised. Line: the same
-//             product integrated along the line (Gauss–Legendre on smooth pieces; a level line needs none).
-//   disk      area of {x² + y² ≤ 1, b ≤ x ≤ e, y ≥ h}/π, by S(x) = ½(x√(1 − x²) + asin x). Line: the circular segment
-//             ½ + (d√(1 − d²) + asin d)/π at the distance d.
-//   poisson   the sum over the taps.
+//   box       the area of a square above a line
+//   gaussian  a cut normal in x times the cumulative one up to the line, integrated along it (Gauss–Legendre on smooth
+//             pieces; a level line needs none)
+//   disk      the circular segment ½ + (d√(1 − d²) + asin d)/π at the distance d
+//
+// poisson is the sum over its taps.
 //
 // Anchors (tests/stimuli/visibility_test.cpp): V = ½ on a line under every symmetric kernel; under the box a stair and its
 // line differ by at most (a/r)²/32 for r ≥ a, a step and the horizontal line by a/(4r).
@@ -37,9 +36,8 @@ class Filter {
     double visibility(const Edge& edge, Point p, double rotation = 0) const;
 
   private:
-    double box(const Edge& edge, Point p) const;
-    double gaussian(const Edge& edge, Point p) const;
-    double disk(const Edge& edge, Point p) const;
+    double line(const Edge& edge, Point p) const;
+    double staircase(const Edge& edge, Point p) const;
     double poisson(const Edge& edge, Point p, double rotation) const;
 
     Kernel kernel_;
