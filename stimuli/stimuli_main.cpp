@@ -45,7 +45,7 @@ struct Options {
     std::optional<double> pixels_per_degree;
     std::string out;
     std::string contact_sheet;
-    /// "true" where --contours has no number; empty without it.
+    /// Empty where there are to be none.
     std::string contours;
     int jobs = 0;
     std::string shard = "1/1";
@@ -170,7 +170,6 @@ std::vector<Stimulus> stimuli_of(const Options& options) {
 /// How many contours a contact sheet has.
 int parse_contours(const std::string& text) {
     if (text.empty()) return 0;
-    if (text == "true") return kUsualContours;
     const auto count = parse_number(text);
     if (!count || !(*count >= 1 && *count <= kMostContours) || *count != std::floor(*count)) {
         throw InputError("--contours", "\"" + text + "\" is no number of contours",
@@ -339,13 +338,13 @@ int main(int argc, char** argv) {
     app.add_option("--out", options.out, "folder for the images and stimuli.csv; required");
     CLI::Option* contact_sheet =
         app.add_option("--contact-sheet", options.contact_sheet, "also draw all artifacts into this one PNG");
-    app.add_option(
-           "--contours", options.contours,
-           "on the contact sheet, draw this many iso-contours of visibility (5 if no number is given), those of "
-           "the line under those of the artifact")
-        ->expected(0, 1)
-        ->type_name("[N]")
-        ->needs(contact_sheet);
+    CLI::Option* contours =
+        app.add_option("--contours", options.contours,
+                       "how many iso-contours of visibility to draw on the contact sheet, 5 if no number is given: the "
+                       "artifact's over those of its line")
+            ->expected(0, 1)
+            ->type_name("[N]")
+            ->needs(contact_sheet);
     app.add_option("--jobs", options.jobs, "threads; 0 is one a core")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
@@ -395,6 +394,7 @@ int main(int argc, char** argv) {
     app.callback([&] {
         if (!app.get_subcommands().empty()) return;
         if (options.out.empty()) throw CLI::RequiredError("--out");
+        if (contours->count() > 0 && options.contours.empty()) options.contours = std::to_string(kUsualContours);
         generate(options);
     });
     return run_program(app, argc, argv);

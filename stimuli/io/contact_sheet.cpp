@@ -31,8 +31,8 @@ constexpr uint8_t kInk = 30;
 constexpr int kContourScale = 2;
 constexpr int kLegendHeight = 28;
 constexpr double kPaleShadow = 0.62;
-constexpr double kLinePen_px = 4.2;
-constexpr double kArtifactPen_px = 1.5;
+constexpr double kLinePen_px = 3.6;
+constexpr double kArtifactPen_px = 1.4;
 constexpr std::array<uint8_t, 3> kLineColour{240, 160, 60};
 constexpr std::array<uint8_t, 3> kArtifactColour{20, 20, 30};
 
@@ -100,30 +100,32 @@ void draw_contour_cell(Image& sheet, const Stimulus& stimulus, int count, int le
     trace_contours(stimulus, count, width, height, kArtifactPen_px).lay(sheet, left, top, kArtifactColour);
 }
 
-/// "0.17, 0.33 … 0.83"
+/// "0.17, 0.33 to 0.83", or all where they are few.
 std::string levels_named(int count) {
     const std::vector<double> levels = contour_levels(count);
     std::string text = format_fixed(levels[0], 2);
     if (count > 1) text += ", " + format_fixed(levels[1], 2);
-    if (count > 2) text += (count > 3 ? " … " : ", ") + format_fixed(levels.back(), 2);
+    if (count > 2) text += (count > 3 ? " to " : ", ") + format_fixed(levels.back(), 2);
     return text;
 }
 
 /// Both pens and what they draw, along the sheet's top.
 void draw_legend(Image& sheet, int count) {
-    constexpr int kSample = 26 * kContourScale;
-    constexpr int kBaseline = 21 * kContourScale;
-    constexpr int kSize = 15 * kContourScale;
+    constexpr int kHeight = kContourScale * kLegendHeight;
+    constexpr int kBaseline = kContourScale * 22;
+    constexpr int kSize = kContourScale * 15;
+    constexpr int kSample = kContourScale * 26;
     const auto entry = [&](int left, std::array<uint8_t, 3> colour, double pen_px, const std::string& text) {
-        const int height = kLegendHeight * kContourScale;
         const double middle = kBaseline - 0.36 * kSize;  // of small letters
-        Coverage coverage(kSample, height);
+        Coverage coverage(kSample, kHeight);
         coverage.stroke({{0, middle}, {kSample, middle}}, pen_px);
-        coverage.lay(sheet, left, 0, colour);
-        draw_text(sheet, left + kSample + kGap * kContourScale, kBaseline, text, kSize, kInk);
+        coverage.lay(sheet, kContourScale * left, 0, colour);
+        draw_text(sheet, kContourScale * (left + kGap) + kSample, kBaseline, text, kSize, kInk);
     };
-    entry(kGap * kContourScale, kArtifactColour, kArtifactPen_px, "artifact");
-    entry(130 * kContourScale, kLineColour, kLinePen_px, "its line: contours of visibility " + levels_named(count));
+    draw_text(sheet, kContourScale * kGap, kBaseline, "contours of visibility " + levels_named(count) + ":", kSize,
+              kInk);
+    entry(326, kArtifactColour, kArtifactPen_px, "artifact");
+    entry(436, kLineColour, kLinePen_px, "the line it stands for");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ class Coverage {
     /// Draws a pen of this width (≥ 1 px) along a polyline. Places are in px from the window's upper left corner, x right, y
     /// down, pixel (column, row) centred at (column + ½, row + ½); what lies outside is left out. A pixel whose centre is
     /// d from the polyline is covered by w/2 + ½ − d, limited to [0, 1]: along a straight stroke the shares add up to its
-    /// length times its width, and their centre is its own to a fraction of a pixel.
+    /// length times its width to one in twenty, and their centre is its own to a tenth of a pixel.
     void stroke(const std::vector<Point>& polyline, double width_px);
 
     double at(int column, int row) const { return shares_[static_cast<size_t>(row) * width_ + column]; }
