@@ -33,7 +33,8 @@ TEST(ContactSheet, ShowsStepsWithoutAFilterAndNoneUnderAWideOne) {
 }
 
 /// Where, from the top of the first cell, a column of a sheet with contours crosses the dark pen: middles of its strokes,
-/// px, weighted by darkness (the palest of a stroke is not told from shading, so to a quarter of a pixel). The first cell of such a sheet begins at (148, 172) and is 336 × 224 px.
+/// px, weighted by darkness; to a quarter of a pixel, as the palest of a stroke can't be told from shading. The first cell
+/// of such a sheet begins at (148, 172) and is 336 × 224 px.
 std::vector<double> strokes_down(const Image& sheet, int column) {
     std::vector<double> middles;
     double weight = 0;
