@@ -4,7 +4,6 @@
 // What is compared runs in turns within one program, and the median of the rounds' ratios of wall time is what counts. On a
 // machine that others use the ratio of processor times, all threads together, is the steadier one.
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <string>
 
@@ -30,9 +29,9 @@ struct Cost {
 
 template <typename Work>
 Cost cost_of(const Work& work) {
-    const std::clock_t start = std::clock();
-    const double wall_s = seconds(work);
-    return {wall_s, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
+    Cost cost;
+    cost.processor_s = processor_seconds([&] { cost.wall_s = seconds(work); });
+    return cost;
 }
 
 Cost batch_cost(const std::vector<Stimulus>& stimuli) {

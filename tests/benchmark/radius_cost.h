@@ -1,9 +1,9 @@
 // What a wider filter costs: times against the radius, and the exponent p of time ∝ rᵖ over the larger radii.
 //
-// Two times: a picture's levels, and one value within the penumbra. The value is what the kernel costs: expected p = 0 for
-// a box, whose columns add up in closed form, and at most 1 for a disk over a stair, which sums the columns under it. A
-// picture's time also follows its penumbra, which grows with r until it fills the picture, and the number of levels in it,
-// which falls from there on.
+// Two processor times: a picture's levels, and one value within the penumbra. The value is what the kernel costs: expected
+// p = 0 for a box, whose columns add up in closed form, and at most 1 for a disk over a stair, which sums the columns under
+// it. A picture's time also follows its penumbra, which grows with r until it fills the picture, and the number of levels
+// in it, which falls from there on.
 #pragma once
 
 namespace stairstep {
