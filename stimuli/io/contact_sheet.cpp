@@ -100,12 +100,12 @@ void draw_contour_cell(Image& sheet, const Stimulus& stimulus, int count, int le
     trace_contours(stimulus, count, width, height, kArtifactPen_px).lay(sheet, left, top, kArtifactColour);
 }
 
-/// "0.17, 0.33 to 0.83", or all where they are few.
+/// "1/6, 2/6 to 5/6", or all where they are few.
 std::string levels_named(int count) {
-    const std::vector<double> levels = contour_levels(count);
-    std::string text = format_fixed(levels[0], 2);
-    if (count > 1) text += ", " + format_fixed(levels[1], 2);
-    if (count > 2) text += (count > 3 ? " to " : ", ") + format_fixed(levels.back(), 2);
+    const auto level = [&](int k) { return std::to_string(k) + "/" + std::to_string(count + 1); };
+    std::string text = level(1);
+    if (count > 1) text += ", " + level(2);
+    if (count > 2) text += (count > 3 ? " to " : ", ") + level(count);
     return text;
 }
 
@@ -124,8 +124,8 @@ void draw_legend(Image& sheet, int count) {
     };
     draw_text(sheet, kContourScale * kGap, kBaseline, "contours of visibility " + levels_named(count) + ":", kSize,
               kInk);
-    entry(326, kArtifactColour, kArtifactPen_px, "artifact");
-    entry(436, kLineColour, kLinePen_px, "the line it stands for");
+    entry(300, kArtifactColour, kArtifactPen_px, "artifact");
+    entry(410, kLineColour, kLinePen_px, "the line it stands for");
 }
 
 }  // namespace
