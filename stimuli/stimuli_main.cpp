@@ -6,6 +6,7 @@
 
 #include "analysis/law/law_file.h"
 #include "renderer/stimulus_source.h"
+#include "stimuli/contour.h"
 #include "stimuli/error.h"
 #include "stimuli/grid.h"
 #include "stimuli/io/batch.h"
@@ -20,6 +21,9 @@
 
 namespace stairstep {
 namespace {
+
+/// Of a contact sheet where --contours gives no number.
+constexpr int kUsualContours = 5;
 
 /// The command line as given.
 struct Options {
@@ -41,6 +45,8 @@ struct Options {
     std::optional<double> pixels_per_degree;
     std::string out;
     std::string contact_sheet;
+    /// Empty where there are to be none.
+    std::string contours;
     int jobs = 0;
     std::string shard = "1/1";
     bool resume = false;
@@ -161,8 +167,20 @@ std::vector<Stimulus> stimuli_of(const Options& options) {
     return read_grid(options.grid_file, defaults);
 }
 
+/// How many contours a contact sheet has.
+int parse_contours(const std::string& text) {
+    if (text.empty()) return 0;
+    const auto count = parse_number(text);
+    if (!count || !(*count >= 1 && *count <= kMostContours) || *count != std::floor(*count)) {
+        throw InputError("--contours", "\"" + text + "\" is no number of contours",
+                         "write a whole number from 1 to " + std::to_string(kMostContours) + ", or none");
+    }
+    return static_cast<int>(*count);
+}
+
 void generate(const Options& options) {
     const std::vector<Stimulus> stimuli = stimuli_of(options);
+    const int contours = parse_contours(options.contours);
     Batch batch;
     batch.folder = options.out;
     batch.rendition = {encoding_of(options), options.source, options.pixels_per_degree};
@@ -170,7 +188,7 @@ void generate(const Options& options) {
     batch.shard = parse_shard(options.shard);
     batch.resume = options.resume;
     const BatchSummary summary = write_batch(stimuli, batch, luminance_by(options.source));
-    if (!options.contact_sheet.empty()) write_png(options.contact_sheet, contact_sheet(stimuli));
+    if (!options.contact_sheet.empty()) write_png(options.contact_sheet, contact_sheet(stimuli, contours));
     std::cout << "wrote " << summary.written << " stimuli and " << summary.manifest << " to " << options.out;
     if (options.resume) std::cout << ", kept " << summary.kept;
     std::cout << "\n";
@@ -318,7 +336,15 @@ int main(int argc, char** argv) {
     app.add_option("--pixels-per-degree", options.pixels_per_degree,
                    "viewing geometry, recorded in images and stimuli.csv");
     app.add_option("--out", options.out, "folder for the images and stimuli.csv; required");
-    app.add_option("--contact-sheet", options.contact_sheet, "also draw all artifacts into this one PNG");
+    CLI::Option* contact_sheet =
+        app.add_option("--contact-sheet", options.contact_sheet, "also draw all artifacts into this one PNG");
+    CLI::Option* contours =
+        app.add_option("--contours", options.contours,
+                       "how many iso-contours of visibility to draw on the contact sheet, 5 if no number is given: the "
+                       "artifact's over those of its line")
+            ->expected(0, 1)
+            ->type_name("[N]")
+            ->needs(contact_sheet);
     app.add_option("--jobs", options.jobs, "threads; 0 is one a core")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
@@ -368,6 +394,7 @@ int main(int argc, char** argv) {
     app.callback([&] {
         if (!app.get_subcommands().empty()) return;
         if (options.out.empty()) throw CLI::RequiredError("--out");
+        if (contours->count() > 0 && options.contours.empty()) options.contours = std::to_string(kUsualContours);
         generate(options);
     });
     return run_program(app, argc, argv);

@@ -1,13 +1,15 @@
 // Computing a stimulus against encoding it: 640 × 480 px, one thread each. The counter `encode/compute` is the ratio of
 // the two times in this run; `levels` is luminance and rounding to 8 bits, which is what a PNG needs.
+// Then what a wider filter costs (radius_cost.h).
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <string>
 
 #include "stimuli/draw.h"
+#include "tests/benchmark/radius_cost.h"
+#include "tests/benchmark/stopwatch.h"
 
 namespace stairstep {
 namespace {
@@ -26,13 +28,6 @@ size_t encode(const Stimulus& stimulus, const std::vector<uint8_t>& levels) {
     writer->write_image(OIIO::TypeDesc::UINT8, levels.data());
     writer->close();
     return bytes.size();
-}
-
-template <typename Work>
-double seconds(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void compute_against_encode(benchmark::State& state, const Stimulus& stimulus) {
@@ -73,8 +68,10 @@ void register_all() {
 
 int main(int argc, char** argv) {
     stairstep::register_all();
+    stairstep::register_radius_cost();
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     benchmark::RunSpecifiedBenchmarks();
+    stairstep::print_radius_exponents();
     return 0;
 }

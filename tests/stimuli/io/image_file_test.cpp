@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "stimuli/error.h"
-#include "stimuli/io/contact_sheet.h"
 #include "stimuli/io/output_file.h"
 #include "stimuli/io/temporary_folder.h"
 
@@ -38,27 +35,6 @@ TEST(ImageFile, RefusesDamagedFiles) {
     }
     EXPECT_THROW(read_image(folder.path() / "absent.png"), InputError);
     EXPECT_THROW(read_image(folder.path()), InputError);
-}
-
-TEST(ContactSheet, ShowsStepsWithoutAFilterAndNoneUnderAWideOne) {
-    const std::vector<Stimulus> stimuli{{.texel_px = 20}, {.texel_px = 20, .kernel = {KernelShape::box, 200}}};
-    const Image sheet = contact_sheet(stimuli);
-    ASSERT_GT(sheet.width, 400);
-    // The first cell spans levels 0 to 255, the second is a gentle ramp around the middle.
-    const auto levels = [&](int left) {
-        uint8_t low = 255, high = 0;
-        for (int row = 62; row < 62 + 100; ++row) {
-            for (int column = left; column < left + 160; ++column) {
-                low = std::min(low, *sheet.at(column, row));
-                high = std::max(high, *sheet.at(column, row));
-            }
-        }
-        return std::pair(low, high);
-    };
-    EXPECT_EQ(levels(76), std::pair(uint8_t{0}, uint8_t{255}));
-    EXPECT_GT(levels(76 + 176).first, 30);
-    EXPECT_LT(levels(76 + 176).second, 225);
-    EXPECT_THROW(contact_sheet({{.pattern = Pattern::line}}), InputError);
 }
 
 }  // namespace
