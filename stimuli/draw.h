@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "stimuli/staircase_raster.h"
@@ -102,10 +103,12 @@ int first_row(int rows, const IsBelow& is_below) {
 }
 
 /// A block of pixels whose values never rise along rows and columns, between `lit` and `dark`, row by row. `pixels_of(row)`
-/// gives a function of the column.
+/// gives a function of the column. Made in `storage`.
 template <typename Pixel, typename PixelsOf>
-std::vector<Pixel> falling_block(int width, int rows, Pixel lit, Pixel dark, const PixelsOf& pixels_of) {
-    std::vector<Pixel> block(static_cast<size_t>(width) * rows, dark);
+std::vector<Pixel> falling_block(int width, int rows, Pixel lit, Pixel dark, const PixelsOf& pixels_of,
+                                 std::vector<Pixel> storage) {
+    std::vector<Pixel> block = std::move(storage);
+    block.assign(static_cast<size_t>(width) * rows, dark);
     const int end_lit = first_row(rows, [&](int row) { return pixels_of(row)(width - 1) != lit; });
     const int begin_dark = first_row(rows, [&](int row) { return pixels_of(row)(0) == dark; });
     std::fill_n(block.begin(), static_cast<size_t>(width) * end_lit, lit);
@@ -120,10 +123,12 @@ std::vector<Pixel> falling_block(int width, int rows, Pixel lit, Pixel dark, con
 }
 
 /// A picture that falls onto itself under `period`, out of a block of its first `period.right` columns that goes on below the
-/// picture's last row for as many rows as the last column needs.
+/// picture's last row for as many rows as the last column needs. Made in `storage`.
 template <typename Pixel>
-std::vector<Pixel> repeated(const std::vector<Pixel>& block, Translation period, int width, int height) {
-    std::vector<Pixel> pixels(static_cast<size_t>(width) * height);
+std::vector<Pixel> repeated(const std::vector<Pixel>& block, Translation period, int width, int height,
+                            std::vector<Pixel> storage) {
+    std::vector<Pixel> pixels = std::move(storage);
+    pixels.resize(static_cast<size_t>(width) * height);
     // From the bottom up, so that the row to copy from is there already.
     for (int row = height - 1; row >= 0; --row) {
         Pixel* line = &pixels[static_cast<size_t>(row) * width];
@@ -142,9 +147,10 @@ std::vector<Pixel> repeated(const std::vector<Pixel>& block, Translation period,
 }
 
 /// All pixels, row by row from the top. `quantise` turns luminance in [0, 1] into a pixel and may not turn a smaller
-/// luminance into a larger pixel.
+/// luminance into a larger pixel. Whoever draws many hands in the last one's pixels as `storage`: the memory of a picture costs
+/// more to come by than its values.
 template <typename Pixel, typename Quantise>
-std::vector<Pixel> draw(const Stimulus& stimulus, const Quantise& quantise) {
+std::vector<Pixel> draw(const Stimulus& stimulus, const Quantise& quantise, std::vector<Pixel> storage = {}) {
     const StimulusSampler sampler(stimulus);
     const int width = stimulus.width_px;
     const int height = stimulus.height_px;
@@ -154,7 +160,8 @@ std::vector<Pixel> draw(const Stimulus& stimulus, const Quantise& quantise) {
         };
     };
     if (!sampler.is_monotone()) {
-        std::vector<Pixel> pixels(static_cast<size_t>(width) * height);
+        std::vector<Pixel> pixels = std::move(storage);
+        pixels.resize(static_cast<size_t>(width) * height);
         for (int row = 0; row < height; ++row) {
             const auto pixel_at = pixels_of(row);
             for (int column = 0; column < width; ++column) {
@@ -166,9 +173,10 @@ std::vector<Pixel> draw(const Stimulus& stimulus, const Quantise& quantise) {
     const auto lit = static_cast<Pixel>(quantise(stimulus.contrast));
     const auto dark = static_cast<Pixel>(quantise(0.0));
     const Translation period = sampler.period();
-    if (period.right == 0) return falling_block(width, height, lit, dark, pixels_of);
+    if (period.right == 0) return falling_block(width, height, lit, dark, pixels_of, std::move(storage));
     const int block_rows = height + (width - 1) / period.right * period.up;
-    return repeated(falling_block(period.right, block_rows, lit, dark, pixels_of), period, width, height);
+    return repeated(falling_block(period.right, block_rows, lit, dark, pixels_of, {}), period, width, height,
+                    std::move(storage));
 }
 
 }  // namespace stairstep
