@@ -37,8 +37,8 @@ struct PsiMarginalSettings {
     double beta_low = 1;
     double beta_high = 10;
     int beta_count = 13;
-    double beta_guess = 3.5;
-    double beta_log_sd = 0.6;
+    double beta_guess = 2.5;
+    double beta_log_sd = 0.8;
     /// Lapse rates, evenly spaced in [0, 1), with the prior e^{−δ/delta_scale}; a single one as for slopes.
     double delta_low = 0;
     double delta_high = 0.1;
