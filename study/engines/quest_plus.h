@@ -25,9 +25,9 @@
 namespace stairstep {
 
 struct QuestPlusParameter {
-    std::string name;
+    std::string name{};
     /// Any finite numbers, in any order, at least one.
-    std::vector<double> values;
+    std::vector<double> values{};
     /// A weight ≥ 0 for each value, not all 0; they need not sum to 1. None: all values alike.
     std::vector<double> prior{};
     /// Summed out before entropies are compared. At least one parameter must be of interest.

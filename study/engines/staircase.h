@@ -35,7 +35,7 @@ struct StaircaseSettings {
     /// S_down before the first reversal, after one, and so on; the last one holds from then on. log10 units, each > 0.
     std::vector<double> steps{0.2, 0.1, 0.05};
     /// How many reversals are averaged: even, ≥ 2, so that peaks and valleys count alike.
-    int averaged_reversals = 6;
+    int averaged_reversals = 10;
     /// Prior, shape and grid of the posterior. Suggestions stay on its grid, guess ± range/2.
     QuestSettings posterior{};
 };

@@ -80,7 +80,7 @@ void expect_sound(const E& engine) {
     EXPECT_LE(e.low, e.high);
 }
 
-/// Answers of an observer with this threshold at the intensities suggested, or where `shown` puts them.
+/// Answers of an observer with this threshold at the intensities suggested.
 template <AdaptiveEngine E>
 void observe(E& engine, double threshold, int trials, uint64_t seed) {
     Random random(seed);
@@ -99,9 +99,10 @@ TYPED_TEST(Engines, FindAPlantedThreshold) {
             observe(engine, planted, 200, seed);
             expect_sound(engine);
             EXPECT_EQ(engine.trials(), 200);
-            EXPECT_NEAR(engine.estimate().threshold, planted, 0.12);
-            EXPECT_LT(engine.estimate().low, planted + 0.03);
-            EXPECT_GT(engine.estimate().high, planted - 0.03);
+            const Estimate estimate = engine.estimate();
+            EXPECT_NEAR(estimate.threshold, planted, 4 * estimate.sd);
+            EXPECT_LT(estimate.sd, 0.15);
+            EXPECT_LT(estimate.high - estimate.low, 0.3);
         }
     }
 }

@@ -136,7 +136,7 @@ TEST(PsiMarginal, LosesNothingHoweverUnlikelyTheAnswers) {
     PsiMarginal psi(small_settings());
     for (size_t i = 0; i < answers.size(); ++i) {
         psi.update(answers[i].first, answers[i].second);
-        if (i % 100 != 39) continue;
+        if (i % 300 != 39) continue;
         const auto [mean, sd] = plain_posterior({answers.begin(), answers.begin() + static_cast<long>(i) + 1});
         EXPECT_NEAR(psi.mean(), mean, 1e-9) << i;
         EXPECT_NEAR(psi.sd(), sd, 1e-8) << i;
@@ -200,18 +200,19 @@ struct Accuracy {
 };
 
 /// Of estimates after `trials` trials of observers with thresholds from the prior.
-Accuracy accuracy(const PsiMarginalSettings& settings, const PsychometricShape& observer, int trials, int runs) {
-    const PsiMarginal untouched(settings);
+template <AdaptiveEngine E>
+Accuracy accuracy(const E& untouched, const PsychometricShape& observer, int trials, int runs) {
     Accuracy result;
     for (int run = 0; run < runs; ++run) {
         Random random = Random(21).stream(static_cast<uint64_t>(run));
         const double threshold = 0.5 * random.normal();
-        PsiMarginal psi(untouched);
+        E engine(untouched);
         for (int trial = 0; trial < trials; ++trial) {
-            const double x = psi.suggest();
-            psi.update(x, random.uniform() < probability_correct(observer, threshold_offset(observer), x, threshold));
+            const double x = engine.suggest();
+            engine.update(x,
+                          random.uniform() < probability_correct(observer, threshold_offset(observer), x, threshold));
         }
-        const Estimate e = psi.estimate();
+        const Estimate e = engine.estimate();
         result.rms += (e.threshold - threshold) * (e.threshold - threshold);
         result.coverage += e.low <= threshold && threshold <= e.high;
     }
@@ -219,20 +220,24 @@ Accuracy accuracy(const PsiMarginalSettings& settings, const PsychometricShape& 
 }
 
 TEST(PsiMarginal, WithAKnownShapeIsAsEfficientAsMinimumEntropyCanBe) {
-    // Another implementation's SD after 40 trials: .0536; bound 1/√(40·I* + 1/σ²) = .0374. The SD of an SD over 500
-    // runs is 3.2 %.
-    QuestSettings quest;
-    quest.grain = 0.02;
-    const Accuracy after_40 = accuracy(minimum_entropy_settings(quest), {}, 40, 500);
-    EXPECT_LT(after_40.rms, 0.0536 * 1.1);
+    // Another implementation's SD after 40 trials: .0536; bound 1/√(40·I* + 1/σ²) = .0374. Errors have a heavy tail
+    // (an early lapse), so that the SD of this SD is near 8 % over 1,000 runs. Placement at the posterior mean meets the
+    // same observers with the same luck and does less well.
+    QuestSettings settings;
+    settings.grain = 0.02;
+    const Accuracy after_40 = accuracy(PsiMarginal(minimum_entropy_settings(settings)), {}, 40, 1000);
+    EXPECT_LT(after_40.rms, 0.0536 * 1.2);
     EXPECT_GT(after_40.rms, 0.0374);
-    EXPECT_GT(after_40.coverage, 0.95 - 3 * std::sqrt(0.95 * 0.05 / 500));
+    EXPECT_GT(after_40.coverage, 0.95 - 3 * std::sqrt(0.95 * 0.05 / 1000));
+    EXPECT_LT(after_40.rms, 1.02 * accuracy(Quest(settings), {}, 40, 1000).rms);
 }
 
 TEST(PsiMarginal, IntervalsHoldTheThresholdWhateverTheSlope) {
     // Longer runs are in the header. Of 100 runs with coverage .92, 84 or fewer hold once in 200 times.
+    PsiMarginalSettings settings;
+    settings.grain = 0.04;
     for (const double beta : {2.0, 5.0}) {
-        EXPECT_GT(accuracy({}, {.beta = beta, .delta = 0.05}, 60, 100).coverage, 0.84) << beta;
+        EXPECT_GT(accuracy(PsiMarginal(settings), {.beta = beta, .delta = 0.05}, 60, 100).coverage, 0.84) << beta;
     }
 }
 

@@ -83,7 +83,7 @@ TEST(Staircase, SaysHowFarItsThresholdIsFromWhatAllTrialsSay) {
 TEST(Staircase, HoversWhereUpAndDownBalance) {
     // Small steps hug the balance: the share of right answers over a long run is p, Levitt's table again.
     for (const int down_after : {2, 3}) {
-        StaircaseSettings settings{.down_after = down_after, .steps = {0.01}};
+        StaircaseSettings settings{.down_after = down_after, .steps = {0.01}, .posterior = {.grain = 0.1}};
         Staircase staircase(settings);
         Random random(static_cast<uint64_t>(down_after));
         const PsychometricShape& shape = settings.posterior.shape;
