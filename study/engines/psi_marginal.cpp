@@ -6,15 +6,13 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <string>
 
-#include "stimuli/error.h"
 #include "study/engines/block_information.h"
+#include "study/engines/psi_lattice.h"
 
 namespace stairstep {
 namespace {
 
-constexpr double kLargestGrid = 1e7;
 /// Products are folded into logarithms before they fall below this, and scales below kNoScale count as 0 until the
 /// reference moves, which it does once the mass is below kSmallestMass: no product of the two is subnormal, and what
 /// counts as 0 is less than 10⁻¹⁰⁰ of the mass.
@@ -31,44 +29,9 @@ constexpr double kSmallestBlock = 1e-8;
 /// Weights below this count as 0 in the choice, so that no float is subnormal.
 constexpr double kNoWeight = 1e-20;
 
-void require_valid(const PsiMarginalSettings& s) {
-    const auto require = [](bool holds, const std::string& subject, const char* problem) {
-        if (!holds) {
-            throw InputError("psi-marginal " + subject, problem,
-                             "compare the settings with study/engines/psi_marginal.h");
-        }
-    };
-    const auto is_axis = [](double low, double high, int count) {
-        return std::isfinite(low) && std::isfinite(high) && (count == 1 ? low == high : count > 1 && low < high);
-    };
-    require(std::isfinite(s.guess), "guess", "must be a finite number");
-    require(s.guess_sd > 0 && std::isfinite(s.guess_sd), "guess SD", "must be a finite number above 0");
-    require(is_axis(s.beta_low, s.beta_high, s.beta_count) && s.beta_low > 0, "slopes",
-            "need 0 < low < high, or low = high for a single one");
-    require(s.beta_guess > 0 && std::isfinite(s.beta_guess) && s.beta_log_sd > 0, "slope prior",
-            "needs a guess and an SD above 0");
-    require(is_axis(s.delta_low, s.delta_high, s.delta_count) && s.delta_low >= 0 && s.delta_scale > 0, "lapse rates",
-            "need 0 ≤ low < high, or low = high for a single one, and a scale above 0");
-    require(is_axis(s.gamma_low, s.gamma_high, s.gamma_count) && s.gamma_low >= 0, "guess rates",
-            "need 0 ≤ low < high, or low = high for a single one");
-    for (const double gamma : {s.gamma_low, s.gamma_high}) {
-        for (const double delta : {s.delta_low, s.delta_high}) {
-            require(is_valid({.beta = s.beta_low, .gamma = gamma, .delta = delta, .p_threshold = s.p_threshold}),
-                    "threshold probability", "must lie between the highest γ and the lowest 1 − δ(1 − γ)");
-        }
-    }
-    require(s.grain > 0 && s.range > 2 * s.grain &&
-                s.range / s.grain * s.beta_count * s.delta_count * s.gamma_count <= kLargestGrid,
-            "grid", "needs a grain above 0, a range of more than two grains and at most 10^7 points");
-}
-
 double scale_of(double logarithm) {
     const double scale = std::exp(logarithm);
     return scale < kNoScale ? 0 : scale;
-}
-
-double at(double low, double high, int count, int i) {
-    return count == 1 ? low : low + (high - low) * i / (count - 1);
 }
 
 double binary_entropy_bits(double p) {
@@ -76,75 +39,6 @@ double binary_entropy_bits(double p) {
 }
 
 }  // namespace
-
-/// What doesn't change: the lattice, the shapes, and Ψ.
-struct PsiMarginal::Tables {
-    PsiMarginalSettings settings;
-    /// Thresholds are guess + (i − half)·grain, i < columns = 2·half + 1; stimuli the same with −pad ≤ i < columns + pad.
-    int half;
-    size_t columns;
-    /// Columns rounded up to whole blocks, as arrays have them; beyond `columns` the posterior is 0.
-    size_t padded;
-    int pad;
-    /// Sorted by β; a group is as many consecutive rows as are summed out together.
-    std::vector<PsychometricShape> shapes;
-    std::vector<double> offsets;
-    size_t group_rows;
-    /// 10^{−β(T − guess)}: u = 10^{β(x − guess + ε)} times this.
-    std::vector<double> decays;
-    /// Ψ(x − T) of each shape against i_T − i_x + columns − 1 + pad, `stride` a row.
-    std::vector<float> psi;
-    size_t stride;
-
-    explicit Tables(const PsiMarginalSettings& s) : settings(s) {
-        require_valid(s);
-        half = static_cast<int>(std::ceil(s.range / s.grain / 2));
-        columns = 2 * static_cast<size_t>(half) + 1;
-        padded = (columns + kLane - 1) / kLane * kLane;
-        pad = static_cast<int>(std::min(std::ceil(1 / s.beta_low / s.grain), static_cast<double>(half)));
-        for (int b = 0; b < s.beta_count; ++b) {
-            const double log_beta = at(std::log(s.beta_low), std::log(s.beta_high), s.beta_count, b);
-            for (int g = 0; g < s.gamma_count; ++g) {
-                for (int d = 0; d < s.delta_count; ++d) {
-                    // A single slope is the one asked for, to the last bit.
-                    shapes.push_back({.beta = s.beta_count == 1 ? s.beta_low : std::exp(log_beta),
-                                      .gamma = at(s.gamma_low, s.gamma_high, s.gamma_count, g),
-                                      .delta = at(s.delta_low, s.delta_high, s.delta_count, d),
-                                      .p_threshold = s.p_threshold});
-                    offsets.push_back(threshold_offset(shapes.back()));
-                }
-            }
-        }
-        group_rows = s.learn_slope ? shapes.size() / static_cast<size_t>(s.beta_count) : shapes.size();
-        stride = 2 * (columns - 1 + static_cast<size_t>(pad)) + 1 + kLane;
-        psi.resize(shapes.size() * stride);
-        decays.assign(shapes.size() * padded, 1);
-        for (size_t row = 0; row < shapes.size(); ++row) {
-            for (size_t k = 0; k < stride; ++k) {
-                const double distance = s.grain * (static_cast<double>(columns) - 1 + pad - static_cast<double>(k));
-                psi[row * stride + k] = static_cast<float>(probability_correct(shapes[row], offsets[row], distance, 0));
-            }
-            for (size_t i = 0; i < columns; ++i) {
-                decays[row * padded + i] = std::pow(10.0, -shapes[row].beta * distance_at(i));
-            }
-        }
-    }
-
-    double distance_at(size_t column) const { return (static_cast<double>(column) - half) * settings.grain; }
-    double threshold_at(size_t column) const { return settings.guess + distance_at(column); }
-    double stimulus_at(int index) const { return settings.guess + (index - half) * settings.grain; }
-    int lowest_stimulus() const { return -pad; }
-    int highest_stimulus() const { return static_cast<int>(columns) - 1 + pad; }
-    int stimulus_near(double intensity) const {
-        const double index = std::round((intensity - settings.guess) / settings.grain) + half;
-        return static_cast<int>(std::clamp<double>(index, lowest_stimulus(), highest_stimulus()));
-    }
-    /// Ψ for the stimulus, from this column's threshold on.
-    const float* window(int stimulus, size_t row, size_t column) const {
-        const int start = static_cast<int>(columns) - 1 + pad - stimulus;
-        return psi.data() + row * stride + static_cast<size_t>(start) + column;
-    }
-};
 
 PsiMarginalSettings minimum_entropy_settings(const QuestSettings& quest) {
     PsiMarginalSettings s;
@@ -160,8 +54,8 @@ PsiMarginalSettings minimum_entropy_settings(const QuestSettings& quest) {
     return s;
 }
 
-PsiMarginal::PsiMarginal(const PsiMarginalSettings& settings) : tables_(std::make_shared<const Tables>(settings)) {
-    const Tables& t = *tables_;
+PsiMarginal::PsiMarginal(const PsiMarginalSettings& settings) : lattice_(std::make_shared<const PsiLattice>(settings)) {
+    const PsiLattice& t = *lattice_;
     const size_t rows = t.shapes.size();
     log_base_.assign(rows * t.padded, -std::numeric_limits<double>::infinity());
     scale_.resize(log_base_.size());
@@ -180,33 +74,52 @@ PsiMarginal::PsiMarginal(const PsiMarginalSettings& settings) : tables_(std::mak
 }
 
 void PsiMarginal::update(double intensity, bool correct) {
-    for (size_t row = 0; row < row_floor_.size(); ++row) update_row(row, intensity, correct);
+    // An answer that every shape holds nearly impossible tells thresholds apart by how much so. What all have in common
+    // is left out: it may be so large that what was known before would vanish beside it.
+    const PsiLattice& t = *lattice_;
+    const size_t likeliest = correct ? 0 : t.columns - 1;
+    double common = -std::numeric_limits<double>::infinity();
+    for (size_t row = 0; row < row_floor_.size(); ++row) {
+        if (least_likelihood(row, intensity, correct) >= kSmallestProduct) {
+            common = 0;
+            break;
+        }
+        common = std::max(common,
+                          log_likelihood(t.shapes[row], t.offsets[row], intensity, t.threshold_at(likeliest), correct));
+    }
+    for (size_t row = 0; row < row_floor_.size(); ++row) update_row(row, intensity, correct, common);
     ++trials_;
     summarise();
 }
 
-void PsiMarginal::update_row(size_t row, double intensity, bool correct) {
-    const Tables& t = *tables_;
+double PsiMarginal::least_likelihood(size_t row, double intensity, bool correct) const {
+    // Ψ falls with T: the least likely threshold is the lowest after a wrong answer, the highest after a right one.
+    const PsiLattice& t = *lattice_;
+    const double threshold = t.threshold_at(correct ? t.columns - 1 : 0);
+    const double u = weibull_exponent(t.shapes[row], t.offsets[row], intensity, threshold);
+    return answer_probability(t.shapes[row], u, correct);
+}
+
+void PsiMarginal::update_row(size_t row, double intensity, bool correct, double common) {
+    const PsiLattice& t = *lattice_;
     const PsychometricShape& shape = t.shapes[row];
     const double offset = t.offsets[row];
-    double* product = product_.data() + row * t.padded;
-
-    // Ψ falls with T: the least likely threshold is the lowest after a wrong answer, the highest after a right one.
+    // u = 10^exponent·decay, where neither factor over- or underflows.
     const double exponent = shape.beta * (intensity - t.settings.guess + offset);
-    const double farthest = shape.beta * -t.distance_at(0);
-    const bool in_range = std::abs(exponent) + farthest < 300;
-    const double u = in_range ? std::pow(10.0, exponent) : 0;
-    const double* decay = t.decays.data() + row * t.padded;
-    const double smallest = in_range ? answer_probability(shape, u * decay[correct ? t.columns - 1 : 0], correct) : 0;
-    if (row_floor_[row] * smallest < kSmallestProduct) fold_row(row);
-    if (smallest < kSmallestProduct) {
-        double* log_base = log_base_.data() + row * t.padded;
+    const bool in_range = std::abs(exponent) + shape.beta * -t.distance_at(0) < 300;
+    const double least = in_range ? least_likelihood(row, intensity, correct) : 0;
+    if (row_floor_[row] * least < kSmallestProduct) fold_row(row);
+    if (least < kSmallestProduct) {
         for (size_t i = 0; i < t.columns; ++i) {
-            log_base[i] += log_likelihood(shape, offset, intensity, t.threshold_at(i), correct);
-            scale_[row * t.padded + i] = scale_of(log_base[i] - reference_);
+            double& log_base = log_base_[row * t.padded + i];
+            log_base += log_likelihood(shape, offset, intensity, t.threshold_at(i), correct) - common;
+            scale_[row * t.padded + i] = scale_of(log_base - reference_);
         }
         return;
     }
+    const double u = std::pow(10.0, exponent);
+    const double* decay = t.decays.data() + row * t.padded;
+    double* product = product_.data() + row * t.padded;
     size_t i = 0;
     if (correct || shape.delta > kNoLapse) {
         // Much lower thresholds, nearly half the grid, all give the same and need no exponential.
@@ -214,12 +127,12 @@ void PsiMarginal::update_row(size_t row, double intensity, bool correct) {
         for (; i < t.columns && u * decay[i] > kCertain; ++i) product[i] *= certain;
     }
     for (; i < t.columns; ++i) product[i] *= answer_probability(shape, u * decay[i], correct);
-    row_floor_[row] *= smallest;
+    row_floor_[row] *= least;
 }
 
 void PsiMarginal::fold_row(size_t row) {
     if (row_floor_[row] == 1) return;
-    const size_t padded = tables_->padded;
+    const size_t padded = lattice_->padded;
     for (size_t i = row * padded; i < (row + 1) * padded; ++i) {
         log_base_[i] += std::log(product_[i]);
         product_[i] = 1;
@@ -237,7 +150,7 @@ void PsiMarginal::set_reference() {
 }
 
 void PsiMarginal::summarise() {
-    const Tables& t = *tables_;
+    const PsiLattice& t = *lattice_;
     shape_marginal_.resize(t.shapes.size());
     const auto sum_up = [&] {
         marginal_.assign(t.padded, 0);
@@ -275,7 +188,7 @@ void PsiMarginal::summarise() {
 
 double PsiMarginal::quantile(double order) const {
     // Each grid point stands for the cell around it; the mass within a cell is spread evenly.
-    const Tables& t = *tables_;
+    const PsiLattice& t = *lattice_;
     double below = 0;
     for (size_t i = 0; i < t.columns; ++i) {
         if (marginal_[i] > 0 && below + marginal_[i] >= order) {
@@ -293,14 +206,14 @@ Estimate PsiMarginal::estimate() const {
 double PsiMarginal::beta() const {
     double sum = 0;
     for (size_t row = 0; row < shape_marginal_.size(); ++row) {
-        sum += shape_marginal_[row] * std::log(tables_->shapes[row].beta);
+        sum += shape_marginal_[row] * std::log(lattice_->shapes[row].beta);
     }
     return std::exp(sum);
 }
 
 double PsiMarginal::delta() const {
     double sum = 0;
-    for (size_t row = 0; row < shape_marginal_.size(); ++row) sum += shape_marginal_[row] * tables_->shapes[row].delta;
+    for (size_t row = 0; row < shape_marginal_.size(); ++row) sum += shape_marginal_[row] * lattice_->shapes[row].delta;
     return sum;
 }
 
@@ -318,7 +231,7 @@ struct PsiMarginal::Blocks {
 };
 
 PsiMarginal::Blocks PsiMarginal::blocks() const {
-    const Tables& t = *tables_;
+    const PsiLattice& t = *lattice_;
     const double normalise = 1 / mass_;
     Blocks result;
     result.weights.resize(scale_.size());
@@ -345,7 +258,7 @@ PsiMarginal::Blocks PsiMarginal::blocks() const {
 }
 
 std::vector<double> PsiMarginal::information(const Blocks& posterior, std::span<const int> stimuli) const {
-    const Tables& t = *tables_;
+    const PsiLattice& t = *lattice_;
     std::vector<double> right(stimuli.size());
     std::vector<double> given(stimuli.size());
     const float* weights = posterior.weights.data();
@@ -365,11 +278,11 @@ std::vector<double> PsiMarginal::information(const Blocks& posterior, std::span<
 }
 
 double PsiMarginal::expected_information(double intensity) const {
-    return information(blocks(), std::array{tables_->stimulus_near(intensity)})[0] * std::numbers::ln2;
+    return information(blocks(), std::array{lattice_->stimulus_near(intensity)})[0] * std::numbers::ln2;
 }
 
 double PsiMarginal::suggest() const {
-    const Tables& t = *tables_;
+    const PsiLattice& t = *lattice_;
     double reach = 0;
     for (size_t row = 0; row < shape_marginal_.size(); ++row) reach += shape_marginal_[row] / t.shapes[row].beta;
     const int first = t.stimulus_near(quantile(0.005) - reach);

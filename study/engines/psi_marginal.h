@@ -57,6 +57,8 @@ struct PsiMarginalSettings {
 /// The minimum-entropy method for a known shape, with QUEST's prior and grid.
 PsiMarginalSettings minimum_entropy_settings(const QuestSettings& settings);
 
+struct PsiLattice;
+
 class PsiMarginal {
   public:
     /// Throws InputError naming a setting that is out of its range, or a grid of more than 10⁷ points.
@@ -89,17 +91,17 @@ class PsiMarginal {
     double expected_information(double intensity) const;
 
   private:
-    struct Tables;
     struct Blocks;
 
-    void update_row(size_t row, double intensity, bool correct);
+    double least_likelihood(size_t row, double intensity, bool correct) const;
+    void update_row(size_t row, double intensity, bool correct, double common);
     void fold_row(size_t row);
     void set_reference();
     void summarise();
     Blocks blocks() const;
     std::vector<double> information(const Blocks& posterior, std::span<const int> stimuli) const;
 
-    std::shared_ptr<const Tables> tables_;
+    std::shared_ptr<const PsiLattice> lattice_;
     /// Row-major, a row a shape, a column a threshold: the posterior is scale·product, scale = e^(log_base − reference).
     std::vector<double> log_base_;
     std::vector<double> scale_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "stimuli/error.h"
 
@@ -205,13 +206,17 @@ void QuestPlus::update(std::span<const double> stimulus, int outcome) {
     if (outcome < 0 || outcome >= t.settings.outcomes) refuse("outcome", "is none of those in the settings");
     std::vector<double> parameters(t.settings.parameters.size());
     std::vector<double> log_p(static_cast<size_t>(t.settings.outcomes));
-    std::vector<double> updated = log_posterior_;
+    std::vector<double> log_likelihoods(t.points);
+    // What the points still possible have in common is left out: it may be so large that what was known before would
+    // vanish beside it.
+    double common = -std::numeric_limits<double>::infinity();
     for (size_t c = 0; c < t.points; ++c) {
         t.parameters_at(c, parameters);
         t.evaluate(stimulus, parameters, log_p);
-        updated[c] += std::max(log_p[static_cast<size_t>(outcome)], kImpossible);
+        log_likelihoods[c] = std::max(log_p[static_cast<size_t>(outcome)], kImpossible);
+        if (std::isfinite(log_posterior_[c])) common = std::max(common, log_likelihoods[c]);
     }
-    log_posterior_ = std::move(updated);
+    for (size_t c = 0; c < t.points; ++c) log_posterior_[c] += log_likelihoods[c] - common;
     ++trials_;
     normalise();
 }

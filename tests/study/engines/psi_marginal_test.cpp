@@ -176,6 +176,19 @@ TEST(PsiMarginal, StaysFiniteUnderContradictionsAndExtremes) {
     }
 }
 
+TEST(PsiMarginal, KeepsWhatItKnowsWhenTheImpossibleHappens) {
+    // Without lapses nobody misses an edge a million decades wide: this tells no thresholds apart.
+    PsiMarginalSettings s = small_settings();
+    s.delta_high = 0;
+    s.delta_count = 1;
+    PsiMarginal psi(s);
+    for (const double x : {-0.2, -0.1, 0.0, 0.05}) psi.update(x, x > -0.15);
+    const Estimate before = psi.estimate();
+    psi.update(1e6, false);
+    EXPECT_NEAR(psi.mean(), before.threshold, 1e-12);
+    EXPECT_NEAR(psi.sd(), before.sd, 1e-12);
+}
+
 TEST(PsiMarginal, IsStillRightAfterAHundredThousandTrials) {
     PsiMarginalSettings s = small_settings();
     s.grain = 0.02;

@@ -254,6 +254,12 @@ TEST(QuestPlus, StaysFiniteUnderContradictions) {
         for (const double p : quest.marginal(0)) mass += p;
         EXPECT_NEAR(mass, 1, 1e-12);
         EXPECT_TRUE(std::isfinite(quest.mean(0)));
+        // A wrong answer far above every threshold is equally impossible for all, and changes nothing.
+        QuestPlus fresh(small_settings(gamma, 0));
+        fresh.update(std::vector{0.3}, 1);
+        const double before = fresh.mean(0);
+        fresh.update(std::vector{1e6}, 0);
+        EXPECT_NEAR(fresh.mean(0), before, 1e-12);
         for (const double entropy : quest.expected_entropies()) EXPECT_TRUE(std::isfinite(entropy));
     }
 }
