@@ -11,7 +11,10 @@
 // point. Likelihoods are exact at the intensity shown, on the lattice or off it. Only the choice of the next stimulus is
 // computed in floats: of two stimuli whose expected entropies agree to 10⁻⁵ either is as good.
 //
-// Figures, from tests/study/engines/psi_marginal_test.cpp: see the end of this header's PsiMarginal.
+// Simulated tracks of 60 trials with T from the prior, default settings, 1,000 tracks each; share of 95 % intervals that hold
+// T, for true δ .01 and .05: β 2: .954, .938 · β 3.5: .994, .991 · β 5: .999, .997. Shallower than the prior expects, β 1.3:
+// .879, .849. With a known shape the SD of T is .110, .055, .038 after 20, 40, 60 trials (8,000 tracks; Fisher bound .053,
+// .037, .031). Shorter runs of both are in tests/study/engines/psi_marginal_test.cpp.
 #pragma once
 
 #include <memory>
