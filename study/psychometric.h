@@ -46,11 +46,19 @@ inline double weibull_exponent(const PsychometricShape& s, double offset, double
     return std::pow(10.0, std::clamp(s.beta * (strength - threshold + offset), -300.0, 300.0));
 }
 
+/// Ψ of a right answer, 1 − Ψ of a wrong one, given u = 10^{β(x − T + ε)} ≥ 0: precise in both tails. Underflows to 0
+/// where γ or δ is 0; log_likelihood does not.
+inline double answer_probability(const PsychometricShape& s, double u, bool correct) {
+    // Where guessing keeps Ψ well above 0, taking it from 1 loses nothing, and exp is twice as fast as expm1.
+    if (correct && s.gamma < 0.1) return s.gamma + (1 - s.delta) * (1 - s.gamma) * -std::expm1(-u);
+    const double wrong = (1 - s.gamma) * (s.delta + (1 - s.delta) * std::exp(-u));
+    return correct ? 1 - wrong : wrong;
+}
+
 /// Ψ at `strength` for a threshold, both log10 units, with ε computed once by the caller. In
 /// [γ, 1 − δ(1 − γ)], finite for any finite arguments.
 inline double probability_correct(const PsychometricShape& s, double offset, double strength, double threshold) {
-    const double u = weibull_exponent(s, offset, strength, threshold);
-    return s.gamma + (1 - s.delta) * (1 - s.gamma) * -std::expm1(-u);
+    return answer_probability(s, weibull_exponent(s, offset, strength, threshold), true);
 }
 
 /// ln Ψ of a right answer, ln(1 − Ψ) of a wrong one: precise in both tails and finite even where γ or δ is 0 and the
@@ -58,9 +66,8 @@ inline double probability_correct(const PsychometricShape& s, double offset, dou
 inline double log_likelihood(const PsychometricShape& s, double offset, double strength, double threshold,
                              bool correct) {
     const double u = weibull_exponent(s, offset, strength, threshold);
-    if (correct) return std::log(s.gamma + (1 - s.delta) * (1 - s.gamma) * -std::expm1(-u));
-    if (s.delta == 0) return std::log1p(-s.gamma) - u;
-    return std::log((1 - s.gamma) * (s.delta + (1 - s.delta) * std::exp(-u)));
+    if (!correct && s.delta == 0) return std::log1p(-s.gamma) - u;
+    return std::log(answer_probability(s, u, correct));
 }
 
 }  // namespace stairstep
