@@ -9,6 +9,7 @@
 
 #include "stimuli/error.h"
 #include "stimuli/number.h"
+#include "study/engines/geometric_likelihood.h"
 
 namespace stairstep {
 namespace {
@@ -29,15 +30,10 @@ constexpr double kBudget = 400 - kLargestDrop;
 /// Sums run in as many strands as a block has points, so that they needn't wait for each other.
 constexpr size_t kBlock = 8;
 
-/// 1 − e^{−u} by its series, terms 1 … n: to a relative 10⁻¹⁷ for u < 0.07 with 9, u < 10⁻³ with 5.
-template <int n>
-double series_of_seen(double u) {
-    double sum = 1;
-    for (int k = n; k >= 2; --k) sum = 1 - u * (1.0 / k) * sum;
-    return u * sum;
-}
-constexpr double kLog10SmallU = -3;
-constexpr double kLog10MediumU = -1.16;
+/// Where the functions of geometric_likelihood.h take over from each other, log10 u.
+constexpr double kLog10Tiny = -6;
+constexpr double kLog10Small = -3;
+constexpr double kLog10Medium = -1.16;
 /// e^{−u} is less than 10⁻²⁰ from u = 46.1 on.
 constexpr double kLargeU = 46.1;
 
@@ -181,48 +177,40 @@ void Quest::multiply_by_likelihood(double intensity, bool correct) {
     // u is taken from its value at the point where it is nearest to 1: its error is least where it matters most.
     const size_t centre =
         static_cast<size_t>(std::clamp(std::round(log10_first_u / step), 0.0, static_cast<double>(size_ - 1)));
-    const double u_at_centre = std::pow(10.0, std::clamp(log10_u(centre), -300.0, 300.0));
-    const double* power = powers_.data() + (size_ - 1 - centre);
-    const auto u_at = [&](size_t i) { return u_at_centre * power[i]; };
+    const GeometricSequence u{std::pow(10.0, std::clamp(log10_u(centre), -300.0, 300.0)),
+                              powers_.data() + (size_ - 1 - centre)};
+    double* factor = factor_.data();
 
     // A right answer has the factor none + seen·(1 − e^{−u}), a wrong one 1 − (1 − δ)(1 − e^{−u}).
     const double best = 1 - shape_.delta * (1 - shape_.gamma);
     const double none = correct ? shape_.gamma / best : 1;
     const double seen = correct ? (1 - shape_.delta) * (1 - shape_.gamma) / best : -(1 - shape_.delta);
+    // As u grows it comes to `all`. Where that is 0, it is e^{−u}: no u is too large to tell thresholds apart.
+    const double all = correct ? 1 : shape_.delta;
+    const double large_u = all > 0 ? kLargeU - std::log(all) : kLargestDrop;
 
-    size_t i = 0;
-    if (!correct && shape_.delta == 0) {
-        // The factor is e^{−u} itself: nothing is too large a u to tell thresholds apart.
-        for (const size_t end = points_where_u_exceeds(log10_first_u, std::log10(kLargestDrop)); i < end; ++i) {
-            set_aside(i, -std::pow(10.0, std::min(log10_u(i), 300.0)));
-        }
-        for (const size_t end = points_where_u_exceeds(log10_first_u, kLog10MediumU); i < end; ++i) {
-            factor_[i] *= std::exp(-u_at(i));
-        }
-    } else {
-        const double large_u = correct ? kLargeU : kLargeU - std::log(shape_.delta);
-        const size_t end_of_large = points_where_u_exceeds(log10_first_u, std::log10(large_u));
-        if (!correct) {
-            for (; i < end_of_large; ++i) factor_[i] *= shape_.delta;
-        }
-        i = end_of_large;
-        for (const size_t end = points_where_u_exceeds(log10_first_u, kLog10MediumU); i < end; ++i) {
-            const double unseen = std::exp(-u_at(i));
-            factor_[i] *= correct ? none + seen * (1 - unseen) : shape_.delta + (1 - shape_.delta) * unseen;
-        }
+    size_t i = points_where_u_exceeds(log10_first_u, std::log10(large_u));
+    if (all == 0) {
+        for (size_t k = 0; k < i; ++k) set_aside(k, -std::pow(10.0, std::min(log10_u(k), 300.0)));
+    } else if (all < 1) {
+        for (size_t k = 0; k < i; ++k) factor[k] *= all;
     }
-    for (const size_t end = points_where_u_exceeds(log10_first_u, kLog10SmallU); i < end; ++i) {
-        factor_[i] *= none + seen * series_of_seen<9>(u_at(i));
-    }
-    // Below the last bound, u adds nothing to `none`; where that is 0, u is the factor, as far as doubles reach.
+    size_t end = points_where_u_exceeds(log10_first_u, kLog10Medium);
+    multiply_by_exponential(factor, u, i, end, all, -seen);
+    i = end;
+    // Below the last bound, u adds nothing to `none`; where that is 0, the factor is u, as far as doubles reach.
     const double log10_least_u = none > 0 ? -20 + std::log10(none) : -kLargestDrop / std::numbers::ln10;
-    for (const size_t end = points_where_u_exceeds(log10_first_u, log10_least_u); i < end; ++i) {
-        factor_[i] *= none + seen * series_of_seen<5>(u_at(i));
-    }
+    const size_t last_end = points_where_u_exceeds(log10_first_u, log10_least_u);
+    end = std::min(last_end, points_where_u_exceeds(log10_first_u, kLog10Small));
+    multiply_by_complement(factor, u, i, end, none, seen);
+    i = end;
+    end = std::min(last_end, points_where_u_exceeds(log10_first_u, kLog10Tiny));
+    multiply_by_small_complement(factor, u, i, end, none, seen);
+    multiply_by_tiny_complement(factor, u, end, last_end, none, seen);
     if (none == 0) {
-        for (; i < size_; ++i) set_aside(i, std::numbers::ln10 * log10_u(i));
+        for (i = last_end; i < size_; ++i) set_aside(i, std::numbers::ln10 * log10_u(i));
     } else if (none < 1) {
-        for (; i < size_; ++i) factor_[i] *= none;
+        for (i = last_end; i < size_; ++i) factor[i] *= none;
     }
     const double least = correct ? none : shape_.delta;
     spent_ += least > 0 ? std::min(-std::log(least), kLargestDrop) : kLargestDrop;
