@@ -73,7 +73,7 @@ class PsychtoolboxQuest {
 
     /// q.quantileOrder: best_quantile_order of study/engines/quest.h, from the table's ends.
     double quantile_order() const { return quantile_order_; }
-    /// q.xThreshold, ε: 0.0571778… for β 3.5, γ 0, δ 0, p_T .795 (exactly: 0.0571500…).
+    /// q.xThreshold, ε: 0.0571778… for β 3.5, γ 0, δ 0, p_T .795 and grain 0.01 (exactly: 0.0571312…).
     double x_threshold() const { return x_threshold_; }
     /// q.gamma: as given, or 0.5 in place of one above p_threshold.
     double gamma() const { return gamma_; }
