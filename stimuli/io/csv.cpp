@@ -121,12 +121,14 @@ struct CsvStream::Parser {
 };
 
 CsvStream::CsvStream(std::FILE* file, std::string source)
-    : file_(file), source_(std::move(source)), parser_(std::make_shared<Parser>()) {
+    : file_(file), source_(std::move(source)), parser_(std::make_unique<Parser>()) {
     if (!read_row()) throw InputError(source_, "is empty", "a header line and rows are needed");
     for (size_t i = 0; i < parser_->ends.size(); ++i) header_.emplace_back(text(i));
     const std::set<std::string> names(header_.begin(), header_.end());
     if (names.size() != header_.size()) reject_line("names a column twice");
 }
+
+CsvStream::~CsvStream() = default;
 
 size_t CsvStream::column(const std::string& name) const {
     const auto found = std::find(header_.begin(), header_.end(), name);
@@ -182,7 +184,8 @@ bool CsvStream::read_row() {
             return parser.complete;
         }
         if (row_size == 0) row_line_ = line_number_;
-        row_size = line_.find_first_not_of("\r\n") == std::string::npos && row_size == 0 ? 0 : row_size + line_.size();
+        const bool is_blank = line_.size() == 1 && (line_[0] == '\n' || line_[0] == '\r');
+        if (!(is_blank && row_size == 0)) row_size += line_.size();
         if (row_size > kLongestLine) reject_line("is longer than 1 MiB");
         if (csv_parse(&parser.state, line_.data(), line_.size(), Parser::end_field, Parser::end_row, &parser) !=
             line_.size()) {
@@ -192,7 +195,7 @@ bool CsvStream::read_row() {
     return true;
 }
 
-/// The next line with what ends it: "\n", "\r", or "\r" alone with the "\n" that follows passed over.
+/// The next line with the "\n" or "\r" that ends it; a "\n" after a "\r" comes by itself and doesn't count as a line.
 bool CsvStream::read_line() {
     line_.clear();
     for (;;) {
@@ -216,7 +219,8 @@ bool CsvStream::read_line() {
         if (after_carriage_return_ && block_[block_at_] == '\n') {
             after_carriage_return_ = false;
             ++block_at_;
-            continue;
+            line_ = "\n";
+            return true;
         }
         after_carriage_return_ = false;
         const char* begin = block_.data() + block_at_;

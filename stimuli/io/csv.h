@@ -51,6 +51,7 @@ class CsvStream {
   public:
     /// Reads the header. `file` stays the caller's and has to outlive the stream.
     CsvStream(std::FILE* file, std::string source);
+    ~CsvStream();
 
     /// Position of a column of the header. Throws InputError naming the source and the column where it is missing.
     size_t column(const std::string& name) const;
@@ -80,7 +81,7 @@ class CsvStream {
     std::FILE* file_;
     std::string source_;
     std::vector<std::string> header_;
-    std::shared_ptr<Parser> parser_;
+    std::unique_ptr<Parser> parser_;
     std::string line_;
     std::string block_;
     size_t block_at_ = 0;

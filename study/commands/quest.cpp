@@ -139,8 +139,11 @@ void print_posterior(const QuestOptions& options) {
                   << "\n";
         return;
     }
-    std::printf("mean      %.6g\nmode      %.6g\nquantile  %.6g  (order %.4g)\nsd        %.6g\ntrials    %d\n", p.mean,
-                p.mode, p.quantile, p.quantile_order, p.sd, p.trials);
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "mean      %.6g\nmode      %.6g\nquantile  %.6g  (order %.4g)\nsd        %.6g\ntrials    %d\n",
+                  p.mean, p.mode, p.quantile, p.quantile_order, p.sd, p.trials);
+    std::cout << text;
 }
 
 }  // namespace

@@ -109,7 +109,10 @@ PsychtoolboxQuest::PsychtoolboxQuest(const PsychtoolboxQuestSettings& settings) 
         const double z = x(i) / settings.guess_sd;
         pdf_[i] = std::exp(-0.5 * (z * z));
     }
-    normalise();
+    // Psychtoolbox divides by the sum twice: over the prior, and over the (empty) history.
+    sum_up();
+    for (double& p : pdf_) p /= sum_;
+    sum_up();
 
     const std::vector<double> unshifted = psychometric_table(shape, gamma_, dim, grain_, 0);
     x_threshold_ = interpolated_threshold(unshifted, dim, grain_, shape.p_threshold);
@@ -117,7 +120,6 @@ PsychtoolboxQuest::PsychtoolboxQuest(const PsychtoolboxQuestSettings& settings) 
     quantile_order_ = quantile_order_of(right_.front(), right_.back());
     std::reverse(right_.begin(), right_.end());
     for (const double p : right_) wrong_.push_back(1 - p);
-    normalise();  // twice: once over the prior, once over the (empty) history
 }
 
 void PsychtoolboxQuest::update(double intensity, bool correct) {
@@ -131,21 +133,39 @@ void PsychtoolboxQuest::update(double intensity, bool correct) {
     if (start < 0 || start > largest_start) ++clamped_trials_;
     const size_t from = static_cast<size_t>(std::clamp(start, 0.0, largest_start));
     const double* likelihood = (correct ? right_ : wrong_).data() + from;
-    for (size_t i = first_; i < last_; ++i) pdf_[i] *= likelihood[i];
-    normalise();
+
+    // The last trial's division, this one's product and its sum in one pass. The sum has to wait for itself; a block at a
+    // time, the rest is done meanwhile.
+    constexpr size_t kBlock = 8;
+    double sum = 0;
+    size_t i = first_;
+    for (; i + kBlock <= last_; i += kBlock) {
+        double product[kBlock];
+        for (size_t k = 0; k < kBlock; ++k) product[k] = pdf_[i + k] / sum_ * likelihood[i + k];
+        for (size_t k = 0; k < kBlock; ++k) pdf_[i + k] = product[k];
+        for (size_t k = 0; k < kBlock; ++k) sum += product[k];
+    }
+    for (; i < last_; ++i) {
+        pdf_[i] = pdf_[i] / sum_ * likelihood[i];
+        sum += pdf_[i];
+    }
+    sum_ = sum;
+    find_support();
     ++trials_;
 }
 
-void PsychtoolboxQuest::normalise() {
-    double sum = 0;
-    for (size_t i = first_; i < last_; ++i) sum += pdf_[i];
-    if (sum == 0) {  // 0/0 everywhere
-        std::fill(pdf_.begin(), pdf_.end(), std::numeric_limits<double>::quiet_NaN());
+void PsychtoolboxQuest::sum_up() {
+    sum_ = 0;
+    for (const double p : pdf_) sum_ += p;
+    find_support();
+}
+
+void PsychtoolboxQuest::find_support() {
+    if (sum_ == 0) {  // all points are 0/0 from now on
         first_ = 0;
         last_ = pdf_.size();
         return;
     }
-    for (size_t i = first_; i < last_; ++i) pdf_[i] /= sum;
     while (pdf_[first_] == 0) ++first_;
     while (pdf_[last_ - 1] == 0) --last_;
 }
@@ -154,14 +174,18 @@ double PsychtoolboxQuest::mean() const {
     double sum = 0;
     double moment = 0;
     for (size_t i = first_; i < last_; ++i) {
-        sum += pdf_[i];
-        moment += pdf_[i] * x(i);
+        sum += pdf(i);
+        moment += pdf(i) * x(i);
     }
     return guess_ + moment / sum;
 }
 
 double PsychtoolboxQuest::mode() const {
-    return x(std::max_element(pdf_.begin(), pdf_.end()) - pdf_.begin()) + guess_;
+    size_t best = first_;
+    for (size_t i = first_; i < last_; ++i) {
+        if (pdf(i) > pdf(best)) best = i;
+    }
+    return x(best) + guess_;
 }
 
 double PsychtoolboxQuest::sd() const {
@@ -169,9 +193,9 @@ double PsychtoolboxQuest::sd() const {
     double moment = 0;
     double second = 0;
     for (size_t i = first_; i < last_; ++i) {
-        sum += pdf_[i];
-        moment += pdf_[i] * x(i);
-        second += pdf_[i] * (x(i) * x(i));
+        sum += pdf(i);
+        moment += pdf(i) * x(i);
+        second += pdf(i) * (x(i) * x(i));
     }
     const double mean = moment / sum;
     const double variance = second / sum - mean * mean;
@@ -182,18 +206,18 @@ double PsychtoolboxQuest::quantile(double order) const {
     if (!(order >= 0 && order <= 1)) {
         throw InputError("quantile order", format_number(order) + " is no probability", "choose one from 0 to 1");
     }
-    std::vector<Point> rising{{pdf_.front(), x(0)}};
+    std::vector<Point> rising{{pdf(0), x(0)}};
     double sum = 0;
     for (size_t i = first_; i < last_; ++i) {
         const double before = sum;
-        sum += pdf_[i];
+        sum += pdf(i);
         if (i > 0 && sum > before) rising.push_back({sum, x(i)});
     }
     if (!std::isfinite(sum)) {
         throw FailureError("QUEST posterior", "has vanished: no threshold can have given these answers",
                            "use a delta above 0 or another engine");
     }
-    if (order < pdf_.front()) return guess_ + x(0);
+    if (order < pdf(0)) return guess_ + x(0);
     if (order > sum) return guess_ + x(pdf_.size() - 1);
     if (rising.size() < 2) {
         throw FailureError("QUEST posterior", "lies on the grid's lowest point alone", "use a larger range");

@@ -84,7 +84,9 @@ class PsychtoolboxQuest {
 
   private:
     double x(size_t i) const { return (static_cast<double>(i) - half_) * grain_; }
-    void normalise();
+    double pdf(size_t i) const { return pdf_[i] / sum_; }
+    void sum_up();
+    void find_support();
 
     double guess_;
     double grain_;
@@ -95,7 +97,9 @@ class PsychtoolboxQuest {
     /// Probabilities of a wrong and of a right answer, from the highest intensity relative to threshold to the lowest.
     std::vector<double> wrong_;
     std::vector<double> right_;
+    /// The posterior before the division by its sum.
     std::vector<double> pdf_;
+    double sum_ = 1;
     /// Outside [first_, last_) the posterior is 0, and stays so.
     size_t first_ = 0;
     size_t last_ = 0;
