@@ -191,11 +191,13 @@ void Quest::multiply_by_likelihood(double intensity, bool correct) {
 
     size_t i = points_where_u_exceeds(log10_first_u, std::log10(large_u));
     if (all == 0) {
-        // Relative to the least of them where all points are here, so that they are told apart however large u is.
-        const double least_u = i == size_ ? std::pow(10.0, std::min(log10_u(size_ - 1), 300.0)) : 0;
-        for (size_t k = 0; k < i; ++k) {
-            if (k + 1 < size_) set_aside(k, least_u - std::pow(10.0, std::min(log10_u(k), 301.0)));
-        }
+        // Where all points are here, relative to the last: they are told apart however large u is, none counts any more,
+        // and the scale is set anew.
+        const auto capped_u = [&](size_t k) {
+            return std::pow(10.0, std::min(log10_u(k), k + 1 < size_ ? 301.0 : 300.0));
+        };
+        const double least_u = i == size_ ? capped_u(size_ - 1) : 0;
+        for (size_t k = 0; k < i; ++k) set_aside(k, least_u - capped_u(k));
     } else if (all < 1) {
         for (size_t k = 0; k < i; ++k) factor[k] *= all;
     }
