@@ -45,6 +45,7 @@ void require_valid(const QuestSettings& s) {
     require(s.guess_sd > 0 && std::isfinite(s.guess_sd), "guess SD", "must be a finite number above 0");
     require(is_valid(s.shape), "psychometric shape",
             "needs beta > 0, gamma and delta in [0, 1), and a threshold probability between them");
+    require(s.shape.beta >= 1e-6 && s.shape.beta <= 1e6, "beta", "must lie between 10^-6 and 10^6");
     require(s.grain > 0 && s.range > 2 * s.grain && s.range / s.grain <= kLargestGrid, "grid",
             "needs a grain above 0, a range of more than two grains and at most 10^6 points");
     require(!s.quantile_order || (*s.quantile_order > 0 && *s.quantile_order < 1), "quantile order",
@@ -67,7 +68,7 @@ double most_informative_offset(const PsychometricShape& shape) {
     const double offset = threshold_offset(shape);
     double low = -3 / shape.beta - offset;
     double high = 2 / shape.beta - offset;
-    while (high - low > 1e-9) {
+    while (high - low > 1e-9 / shape.beta) {
         const double span = (high - low) / std::numbers::phi;
         if (information(shape, offset, high - span) < information(shape, offset, low + span)) {
             low = high - span;
@@ -113,7 +114,7 @@ Quest::Quest(const QuestSettings& settings) : shape_(settings.shape), placement_
     shift_.resize(padded);
     std::fill_n(factor_.begin(), size_, 1.0);
     for (size_t i = 0; i < size_; ++i) {
-        const double z = (threshold_at(i) - settings.guess) / settings.guess_sd;
+        const double z = (static_cast<double>(i) - half) * grain_ / settings.guess_sd;
         shift_[i] = settings.log_prior ? settings.log_prior(threshold_at(i)) : -z * z / 2;
         if (!(shift_[i] < kInfinity)) {
             throw InputError("QUEST prior", "is no density at " + format_number(threshold_at(i)),
@@ -158,7 +159,7 @@ void Quest::update(double intensity, bool correct) {
 /// log10 u falls by β·grain from point to point, so the points where u exceeds a bound are the first ones.
 size_t Quest::points_where_u_exceeds(double log10_first_u, double log10_u) const {
     const double count = std::ceil((log10_first_u - log10_u) / (shape_.beta * grain_));
-    return static_cast<size_t>(std::clamp(count, 0.0, static_cast<double>(size_)));
+    return count > 0 ? static_cast<size_t>(std::min(count, static_cast<double>(size_))) : 0;
 }
 
 /// Takes a factor too small for a double out of the points that count.
@@ -187,17 +188,20 @@ void Quest::multiply_by_likelihood(double intensity, bool correct) {
     const double seen = correct ? (1 - shape_.delta) * (1 - shape_.gamma) / best : -(1 - shape_.delta);
     // As u grows it comes to `all`. Where that is 0, it is e^{−u}: no u is too large to tell thresholds apart.
     const double all = correct ? 1 : shape_.delta;
-    const double large_u = all > 0 ? kLargeU - std::log(all) : kLargestDrop;
+    const double least_factor = std::exp(-kLargestDrop);
+    const double large_u = all > least_factor ? kLargeU - std::log(all) : kLargestDrop;
 
     size_t i = points_where_u_exceeds(log10_first_u, std::log10(large_u));
-    if (all == 0) {
+    if (all <= least_factor) {
         // Where all points are here, relative to the last: they are told apart however large u is, none counts any more,
         // and the scale is set anew.
         const auto capped_u = [&](size_t k) {
             return std::pow(10.0, std::min(log10_u(k), k + 1 < size_ ? 301.0 : 300.0));
         };
         const double least_u = i == size_ ? capped_u(size_ - 1) : 0;
-        for (size_t k = 0; k < i; ++k) set_aside(k, least_u - capped_u(k));
+        for (size_t k = 0; k < i; ++k) {
+            set_aside(k, all > 0 ? std::log(all + std::exp(-capped_u(k))) : least_u - capped_u(k));
+        }
     } else if (all < 1) {
         for (size_t k = 0; k < i; ++k) factor[k] *= all;
     }
@@ -205,7 +209,7 @@ void Quest::multiply_by_likelihood(double intensity, bool correct) {
     multiply_by_exponential(factor, u, i, end, all, -seen);
     i = end;
     // Below the last bound, u adds nothing to `none`; where that is 0, the factor is u, as far as doubles reach.
-    const double log10_least_u = none > 0 ? -20 + std::log10(none) : -kLargestDrop / std::numbers::ln10;
+    const double log10_least_u = none > least_factor ? -20 + std::log10(none) : -kLargestDrop / std::numbers::ln10;
     const size_t last_end = points_where_u_exceeds(log10_first_u, log10_least_u);
     end = std::min(last_end, points_where_u_exceeds(log10_first_u, kLog10Small));
     multiply_by_complement(factor, u, i, end, none, seen);
@@ -213,13 +217,14 @@ void Quest::multiply_by_likelihood(double intensity, bool correct) {
     end = std::min(last_end, points_where_u_exceeds(log10_first_u, kLog10Tiny));
     multiply_by_small_complement(factor, u, i, end, none, seen);
     multiply_by_tiny_complement(factor, u, end, last_end, none, seen);
-    if (none == 0) {
-        for (i = last_end; i < size_; ++i) set_aside(i, std::numbers::ln10 * log10_u(i));
+    if (none <= least_factor) {
+        for (i = last_end; i < size_; ++i) {
+            set_aside(i, none > 0 ? std::log(none + std::pow(10.0, log10_u(i))) : std::numbers::ln10 * log10_u(i));
+        }
     } else if (none < 1) {
         for (i = last_end; i < size_; ++i) factor[i] *= none;
     }
-    const double least = correct ? none : shape_.delta;
-    spent_ += least > 0 ? std::min(-std::log(least), kLargestDrop) : kLargestDrop;
+    spent_ += -std::log(std::max(correct ? none : shape_.delta, least_factor));
 }
 
 /// Keeps factors away from underflow: a small one goes into its point's shift.

@@ -38,6 +38,7 @@ struct QuestSettings {
     /// Prior of T: normal with this mean and standard deviation, log10 units; guess_sd > 0.
     double guess = 0;
     double guess_sd = 0.5;
+    /// beta from 10⁻⁶ to 10⁶.
     PsychometricShape shape{};
     /// Grid spacing and full width around the guess, log10 units; grain > 0, range > 2·grain.
     double grain = 0.01;

@@ -119,7 +119,7 @@ TEST_F(QuestCommand, RefusesImpossibleSettings) {
         {"--range 0.001 --engine stairstep", "--range"},
         {"--quantile-order 2", "--quantile-order"},
         {"--engine other", "--engine"},
-        {"--range 0.02", "p-threshold"},
+        {"--range 0.02 --p-threshold 0.9", "p-threshold"},
     };
     for (const auto& [flags, names] : bad) {
         const CommandResult result = quest(flags, "intensity,response\n-1,1\n");
