@@ -11,5 +11,6 @@ int main(int argc, char** argv) {
     add_simulate_command(app);
     add_export_command(app);
     add_status_command(app);
+    add_quest_command(app);
     return run_program(app, argc, argv);
 }

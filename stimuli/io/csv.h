@@ -1,9 +1,12 @@
 // Comma-separated tables (RFC 4180), read by column name. Parsing is libcsv's in strict mode.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stairstep {
@@ -40,6 +43,53 @@ class CsvTable {
     std::string source_;
     std::vector<std::string> header_;
     std::vector<std::vector<std::string>> rows_;
+};
+
+/// A table row by row, for more rows than memory should hold: one row at a time, lines of up to 1 MiB. What is
+/// malformed is refused as by CsvTable; its lines are counted as a text editor counts them.
+class CsvStream {
+  public:
+    /// Reads the header. `file` stays the caller's and has to outlive the stream.
+    CsvStream(std::FILE* file, std::string source);
+    ~CsvStream();
+
+    /// Position of a column of the header. Throws InputError naming the source and the column where it is missing.
+    size_t column(const std::string& name) const;
+
+    /// Goes on to the next row; false after the last. Throws InputError naming source and line for what is malformed.
+    bool next();
+
+    /// A field of the row, valid until `next`.
+    std::string_view text(size_t column) const;
+    /// The field as a finite number. Throws InputError naming source, line and column otherwise.
+    double number(size_t column) const;
+
+    /// An error about one field of the row.
+    [[noreturn]] void reject(size_t column, const std::string& problem, const std::string& remedy) const;
+
+    /// Bytes read so far.
+    long bytes() const { return bytes_; }
+
+  private:
+    /// libcsv's state, and the row that it is at.
+    struct Parser;
+
+    bool read_row();
+    bool read_line();
+    [[noreturn]] void reject_line(const std::string& problem) const;
+
+    std::FILE* file_;
+    std::string source_;
+    std::vector<std::string> header_;
+    std::unique_ptr<Parser> parser_;
+    std::string line_;
+    std::string block_;
+    size_t block_at_ = 0;
+    /// The line that was read last, and the one on which the row begins; from 1.
+    long line_number_ = 0;
+    long row_line_ = 0;
+    bool after_carriage_return_ = false;
+    long bytes_ = 0;
 };
 
 /// Writes a table row by row into text.

@@ -17,7 +17,7 @@ constexpr int kBarWidth = 30;
 
 Progress::Progress(std::string label, long total)
     : label_(std::move(label)),
-      total_(std::max(total, 1L)),
+      total_(std::max(total, 0L)),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
       next_draw_(start_ + kSilentFor) {}
@@ -39,11 +39,15 @@ void Progress::advance(long units) {
 void Progress::draw(long done) {
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     const double rate = done / seconds;
+    drawn_ = true;
+    if (total_ == 0) {
+        std::fprintf(stderr, "\r\033[K%s  %ld  %.0f/s", label_.c_str(), done, rate);
+        return;
+    }
     const int filled = static_cast<int>(std::min(done, total_) * kBarWidth / total_);
     const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
     std::fprintf(stderr, "\r\033[K%s [%s] %ld/%ld  %.0f/s  %.0f s left", label_.c_str(), bar.c_str(), done, total_,
                  rate, rate > 0 ? (total_ - done) / rate : 0.0);
-    drawn_ = true;
 }
 
 }  // namespace stairstep

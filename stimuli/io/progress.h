@@ -10,7 +10,7 @@ namespace stairstep {
 
 class Progress {
   public:
-    /// `label` says what is being done; total > 0 units of it.
+    /// `label` says what is being done; total units of it, 0 where that isn't known.
     Progress(std::string label, long total);
     ~Progress();
     Progress(const Progress&) = delete;

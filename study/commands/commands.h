@@ -10,6 +10,7 @@ namespace stairstep {
 
 void add_simulate_command(CLI::App& app);
 void add_export_command(CLI::App& app);
+void add_quest_command(CLI::App& app);
 void add_status_command(CLI::App& app);
 
 }  // namespace stairstep
