@@ -16,17 +16,17 @@ constexpr double kSmallestPlainSum = 1e-250;
 }  // namespace
 
 DeviationKernel::DeviationKernel(double sd, double grain, size_t points)
-    : sd_(sd), grain_(grain), weights_(points), log_weights_(points), log_row_mass_(points) {
+    : sd_(sd), grain_(grain), mirrored_(2 * points - 1), log_weights_(points), log_row_mass_(points) {
     assert((sd == 0 || sd >= grain / 2) && grain > 0 && points > 0);
     for (size_t l = 0; l < points; ++l) {
         const double z = static_cast<double>(l) * grain / sd;
         log_weights_[l] = l == 0 ? 0 : sd == 0 ? -std::numeric_limits<double>::infinity() : -z * z / 2;
-        weights_[l] = std::exp(log_weights_[l]);
+        mirrored_[points - 1 + l] = mirrored_[points - 1 - l] = std::exp(log_weights_[l]);
     }
     // Z_i holds the weights up to either end of the grid.
     std::vector<double> sums(points);
     double sum = 0;
-    for (size_t l = 0; l < points; ++l) sums[l] = sum += weights_[l];
+    for (size_t l = 0; l < points; ++l) sums[l] = sum += weight(l);
     for (size_t i = 0; i < points; ++i) log_row_mass_[i] = std::log(sums[i] + sums[points - 1 - i] - 1);
 }
 
@@ -68,7 +68,7 @@ void DeviationKernel::log_convolve(std::span<const double> in, std::span<double>
     const size_t last = terms.rend() - std::find_if(terms.rbegin(), terms.rend(), is_there) - 1;
     std::vector<double> sums = terms;
     for (size_t l = 1; l <= reached; ++l) {
-        const double w = weights_[l];
+        const double w = weight(l);
         if (w == 0) break;
         for (size_t j = std::max(first, l); j <= last; ++j) sums[j - l] += w * terms[j];
         for (size_t j = first; j <= last && j + l < n; ++j) sums[j + l] += w * terms[j];

@@ -23,7 +23,9 @@ class DeviationKernel {
     size_t points() const { return log_row_mass_.size(); }
     /// ln w of a distance in grid points, < points(); −∞ beyond 0 if σ = 0.
     double log_weight(size_t distance) const { return log_weights_[distance]; }
-    double weight(size_t distance) const { return weights_[distance]; }
+    double weight(size_t distance) const { return mirrored_[points() - 1 + distance]; }
+    /// w(j − i) at [points() − 1 + j − i]: a row or a column is a piece of it.
+    std::span<const double> mirrored_weights() const { return mirrored_; }
     /// ln Z_i.
     double log_row_mass(size_t i) const { return log_row_mass_[i]; }
     /// The farthest distance with ln w ≥ −depth.
@@ -38,7 +40,7 @@ class DeviationKernel {
 
     double sd_;
     double grain_;
-    std::vector<double> weights_;
+    std::vector<double> mirrored_;
     std::vector<double> log_weights_;
     std::vector<double> log_row_mass_;
 };

@@ -86,25 +86,26 @@ void normalise(std::vector<double>& logs) {
     for (double& value : logs) value /= sum;
 }
 
-/// Σ psi·mass and Σ psi·moment. Two of each side by side: the sums don't wait for each other.
+/// Σ weight·mass and Σ weight·moment. Four of each side by side: a sum then doesn't wait for the one before.
 struct Sums {
     double mass = 0;
     double moment = 0;
 };
-Sums weighted_sums(const double* psi, std::span<const double> mass, std::span<const double> moment) {
-    Sums even, odd;
+Sums weighted_sums(const double* weights, std::span<const double> mass, std::span<const double> moment) {
+    constexpr size_t kLanes = 4;
+    double masses[kLanes]{}, moments[kLanes]{};
     size_t j = 0;
-    for (; j + 1 < mass.size(); j += 2) {
-        even.mass += psi[j] * mass[j];
-        even.moment += psi[j] * moment[j];
-        odd.mass += psi[j + 1] * mass[j + 1];
-        odd.moment += psi[j + 1] * moment[j + 1];
+    for (; j + kLanes <= mass.size(); j += kLanes) {
+        for (size_t lane = 0; lane < kLanes; ++lane) {
+            masses[lane] += weights[j + lane] * mass[j + lane];
+            moments[lane] += weights[j + lane] * moment[j + lane];
+        }
     }
-    if (j < mass.size()) {
-        even.mass += psi[j] * mass[j];
-        even.moment += psi[j] * moment[j];
+    for (; j < mass.size(); ++j) {
+        masses[0] += weights[j] * mass[j];
+        moments[0] += weights[j] * moment[j];
     }
-    return {even.mass + odd.mass, even.moment + odd.moment};
+    return {(masses[0] + masses[1]) + (masses[2] + masses[3]), (moments[0] + moments[1]) + (moments[2] + moments[3])};
 }
 
 /// Cov(θ, y)²/Var(y) from the sums over all that is possible and those weighted with the probability of y = 1.
@@ -119,10 +120,8 @@ double variance_reduction(const Sums& all, const Sums& right) {
 
 std::vector<PsychometricShape> usual_shapes() {
     std::vector<PsychometricShape> shapes;
-    for (const double delta : {0.01, 0.04}) {
-        for (int step = -2; step <= 2; ++step) {
-            shapes.push_back({.beta = 3.5 * std::pow(2.0, step / 2.0), .delta = delta});
-        }
+    for (const double delta : {0.01, 0.06}) {
+        for (const double beta : {2.0, 3.5, 6.0}) shapes.push_back({.beta = beta, .delta = delta});
     }
     return shapes;
 }
@@ -219,6 +218,7 @@ std::vector<LawDirected::Joint> LawDirected::joint_with_law(size_t track_index) 
     const Track& track = tracks_[track_index];
     const double negligible = kNegligibleShare * *std::max_element(posterior_.begin(), posterior_.end());
     std::vector<Joint> joints;
+    std::vector<double> law_mass, law_moment;
     for (size_t s = 0; s < shapes_.size(); ++s) {
         const std::span<const double> shares = std::span(posterior_).subspan(s * n, n);
         const std::span<const double> evidence = std::span(track.log_evidence).subspan(s * n, n);
@@ -231,33 +231,37 @@ std::vector<LawDirected::Joint> LawDirected::joint_with_law(size_t track_index) 
         // P(θ_i, t_j) = P(θ_i)·w(j − i)/Z_i·L_j/M_i, M the evidence. `scale` keeps both factors that depend on one index
         // alone in range, wherever the likelihood at these θ isn't smaller than its maximum by hundreds of powers of ten.
         double scale = 0, total = 0;
-        const double highest = *std::max_element(likelihood.begin(), likelihood.end());
         for (size_t i = first; i < last; ++i) {
             scale = std::max(scale, -evidence[i]);
             total += shares[i];
         }
-        const size_t reach = kernel_.reach(-std::log(kNegligibleShare) + std::log(static_cast<double>(n)) +
-                                           std::max(0.0, highest + scale));
-        Joint joint{s, first - std::min(first, reach), {}, {}};
-        const size_t end = std::min(n, last + reach);
-        joint.mass.assign(end - joint.first, 0);
-        joint.moment.assign(end - joint.first, 0);
+        const double log_negligible = std::log(kNegligibleShare / static_cast<double>(n));
+        const double highest = *std::max_element(likelihood.begin(), likelihood.end());
+        const size_t reach = kernel_.reach(-log_negligible + std::max(0.0, highest + scale));
+        // As w/Z ≤ 1, P(t_j) ≤ exp(scale)·L_j: that too bounds the thresholds that need a look.
+        size_t low = first - std::min(first, reach), high = std::min(n, last + reach);
+        const double needed = log_negligible + std::log(total) - scale;
+        while (low < high && likelihood[low] < needed) ++low;
+        while (high > low && likelihood[high - 1] < needed) --high;
+
+        law_mass.assign(last - first, 0);
+        law_moment.assign(last - first, 0);
         for (size_t i = first; i < last; ++i) {
-            const double mass = shares[i] * std::exp(-evidence[i] - kernel_.log_row_mass(i) - scale);
-            const double moment = mass * (value_at(i) - law_.threshold);
-            const size_t from = i - std::min(i, reach);
-            const size_t to = std::min(n, i + reach + 1);
-            for (size_t j = from; j < to; ++j) {
-                const double w = kernel_.weight(j > i ? j - i : i - j);
-                joint.mass[j - joint.first] += w * mass;
-                joint.moment[j - joint.first] += w * moment;
-            }
+            law_mass[i - first] = shares[i] * std::exp(-evidence[i] - kernel_.log_row_mass(i) - scale);
+            law_moment[i - first] = law_mass[i - first] * (value_at(i) - law_.threshold);
         }
+        Joint joint{s, low, {}, {}};
         double found = 0;
-        for (size_t j = joint.first; j < end; ++j) {
+        for (size_t j = low; j < high; ++j) {
+            const size_t from = std::max(first, j - std::min(j, reach));
+            const size_t to = std::max(from, std::min(last, j + reach + 1));
+            const Sums sums = weighted_sums(&kernel_.mirrored_weights()[n - 1 + from - j],
+                                            std::span(law_mass).subspan(from - first, to - from),
+                                            std::span(law_moment).subspan(from - first, to - from));
             const double factor = std::exp(likelihood[j] + scale);
-            found += joint.mass[j - joint.first] *= factor;
-            joint.moment[j - joint.first] *= factor;
+            joint.mass.push_back(sums.mass * factor);
+            joint.moment.push_back(sums.moment * factor);
+            found += joint.mass.back();
         }
 
         // The mass is known beforehand. Where plain numbers lost it, once more row by row, each scaled by itself.

@@ -37,7 +37,8 @@
 
 namespace stairstep {
 
-/// Slopes 1.75 to 7 about QUEST's 3.5 in steps of √2, each with lapse rates of .01 and .04; γ = .5, p_T = .82.
+/// Slopes of 2, 3.5 and 6 about QUEST's 3.5, each with lapse rates of .01 and .06; γ = .5, p_T = .82. Five slopes (1.75 to 7)
+/// gave the same errors and coverage in simulation, for 1.7 times the time.
 std::vector<PsychometricShape> usual_shapes();
 
 struct LawDirectedSettings {
