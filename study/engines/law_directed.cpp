@@ -297,8 +297,8 @@ double LawDirected::expected_variance(int track, double intensity) const {
     Sums all, right;
     for (const Joint& joint : joint_with_law(static_cast<size_t>(track))) {
         for (size_t j = 0; j < joint.mass.size(); ++j) {
-            const double p = probability_correct(shapes_[joint.shape], offsets_[joint.shape], intensity,
-                                                 value_at(joint.first + j));
+            const double p =
+                probability_correct(shapes_[joint.shape], offsets_[joint.shape], intensity, value_at(joint.first + j));
             all.mass += joint.mass[j];
             all.moment += joint.moment[j];
             right.mass += p * joint.mass[j];

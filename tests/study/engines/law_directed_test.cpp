@@ -56,7 +56,8 @@ class Enumeration {
                 for (const double t : values_) {
                     double product = 1;
                     for (const Answer& a : answers) {
-                        if (a.track == k) product *= a.correct ? right(shape, a.intensity, t) : 1 - right(shape, a.intensity, t);
+                        if (a.track == k)
+                            product *= a.correct ? right(shape, a.intensity, t) : 1 - right(shape, a.intensity, t);
                     }
                     likelihood[k].push_back(product);
                 }
@@ -134,8 +135,8 @@ TEST(LawDirected, PosteriorEqualsTheEnumerationOfEverythingPossible) {
     const LawDirected engine = after(small_settings(), some_answers());
     const double mean = all.mean([](const auto& e) { return e.law; });
     EXPECT_NEAR(engine.estimate().threshold, mean, 1e-12);
-    EXPECT_NEAR(engine.estimate().sd, std::sqrt(all.mean([&](const auto& e) { return (e.law - mean) * (e.law - mean); })),
-                1e-12);
+    EXPECT_NEAR(engine.estimate().sd,
+                std::sqrt(all.mean([&](const auto& e) { return (e.law - mean) * (e.law - mean); })), 1e-12);
     // Below a bound in the middle of a cell lies half of the cell's mass and all before.
     for (const auto& [bound, order] : {std::pair{engine.estimate().low, 0.025}, {engine.estimate().high, 0.975}}) {
         EXPECT_NEAR(all.mean([&](const auto& e) { return std::clamp((bound - e.law) / 0.1 + 0.5, 0.0, 1.0); }), order,
@@ -234,8 +235,7 @@ TEST(LawDirected, WithoutDeviationsIsOneQuest) {
 }
 
 TEST(LawDirected, WithBoundlessDeviationsLeavesEachTrackToItself) {
-    const LawDirected engine =
-        after({.tracks = 3, .guess = -0.3, .deviation_sd = 1e7, .shapes = {{}}}, some_answers());
+    const LawDirected engine = after({.tracks = 3, .guess = -0.3, .deviation_sd = 1e7, .shapes = {{}}}, some_answers());
     EXPECT_NEAR(engine.estimate().threshold, -0.3, 1e-9);  // the tracks say nothing of the law
     for (int k = 0; k < 3; ++k) {
         Quest quest({.guess = -0.3, .guess_sd = 1e7});  // flat on the grid, as the tracks' own prior is
@@ -374,29 +374,29 @@ TEST(LawDirected, HundredThousandTrialsFindTheLaw) {
 
 TEST(LawDirected, FindsPlantedLawsAsSurelyAsItSays) {
     // θ, deviations and slope drawn as the engine expects them: then the squared error in units of its own SD is 1 on
-    // average (its SD over 80 observers is .16), and 95 % intervals hold.
-    const LawDirectedSettings settings{.guess = -0.5, .guess_sd = 0.3, .grain = 0.04, .range = 3};
+    // average (its SD over 50 observers is .2), and 95 % intervals hold.
+    const LawDirectedSettings settings{.guess = -0.5, .guess_sd = 0.3, .grain = 0.05, .range = 3};
     double squares = 0, sd = 0;
     int covered = 0;
-    for (uint64_t observer = 0; observer < 80; ++observer) {
+    for (uint64_t observer = 0; observer < 50; ++observer) {
         Random random = Random(21).stream(observer);
         const PsychometricShape& shape = settings.shapes[random.below(settings.shapes.size())];
         const double law = settings.guess + settings.guess_sd * random.normal();
         double thresholds[4];
         for (double& threshold : thresholds) threshold = law + settings.deviation_sd * random.normal();
         LawDirected engine(settings);
-        for (int trial = 0; trial < 60; ++trial) {
+        for (int trial = 0; trial < 50; ++trial) {
             const auto [track, x] = engine.suggest();
             const double p = probability_correct(shape, threshold_offset(shape), x, thresholds[track]);
             engine.update(track, x, random.uniform() < p);
         }
         const Estimate found = engine.estimate();
-        squares += std::pow((found.threshold - law) / found.sd, 2) / 80;
-        sd += found.sd / 80;
+        squares += std::pow((found.threshold - law) / found.sd, 2) / 50;
+        sd += found.sd / 50;
         covered += found.low <= law && law <= found.high;
     }
-    EXPECT_NEAR(squares, 1, 0.5);
-    EXPECT_GE(covered, 70);
+    EXPECT_NEAR(squares, 1, 0.6);
+    EXPECT_GE(covered, 43);
     EXPECT_LT(sd, 0.08);
 }
 
