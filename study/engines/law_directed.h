@@ -25,7 +25,9 @@
 // (.10 in ln r is .0434 in log10 r), and a little less than the SD of .05 at which a track is called converged: smaller
 // deviations could hardly be told from none, and larger ones would show in a single observer's tracks.
 //
-// What it gains, and what it doesn't, is measured in study/engines/law_directed_gain.h.
+// What it gains, and what it doesn't, is measured in study/engines/law_directed_gain.h. A trial (suggest and update) with 4
+// tracks, 501 points and the usual shapes takes 1 ms on average and at most 2 to 3; with one fixed shape 0.15 ms; where
+// σ_e is .3 or more, and tracks say little of each other, 4 to 8 ms.
 #pragma once
 
 #include <span>
