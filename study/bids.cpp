@@ -146,17 +146,18 @@ std::string task_label(Task task) {
 ordered_json events_sidecar(const BidsStudy& study) {
     const Design& design = study.design;
     const bool is_yes_no = design.task == Task::yes_no;
-    ordered_json sidecar{
-        {"TaskName", name(design.task)},
-        {"TaskDescription",
-         is_yes_no
-             ? "One filtered shadow edge is shown at a time, sampled by a shadow map (an artifact) or true (a line); "
-               "the observer says which of the two it is. The filter's radius follows the answers, by an adaptive "
-               "method for each condition."
-             : "A filtered shadow edge as a shadow map samples it (an artifact) and the true one (a line) are shown "
-               "side by side; the observer says which is the artifact. The filter's radius follows the answers, by "
-               "an adaptive method for each condition."},
-        {"StimulusPresentation", {{"SoftwareName", "Stairstep"}, {"SoftwareVersion", STAIRSTEP_VERSION}}}};
+    const char* description =
+        is_yes_no
+            ? "One filtered shadow edge is shown at a time, sampled by a shadow map (an artifact) or true (a line); "
+              "the observer says which of the two it is. The filter's radius follows the answers, by an adaptive "
+              "method for each condition."
+            : "A filtered shadow edge as a shadow map samples it (an artifact) and the true one (a line) are shown "
+              "side by side; the observer says which is the artifact. The filter's radius follows the answers, by "
+              "an adaptive method for each condition.";
+    // At the top level of this file the validator takes objects alone.
+    ordered_json sidecar;
+    sidecar["Task"] = {{"TaskName", name(design.task)}, {"TaskDescription", description}};
+    sidecar["StimulusPresentation"] = ordered_json{{"SoftwareName", "Stairstep"}};
     sidecar["StudyDesign"] = to_json(design);
     if (design.viewing) {
         sidecar["StimulusPresentation"]["ScreenDistance"] = design.viewing->distance_mm / 1000;
