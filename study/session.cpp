@@ -129,9 +129,11 @@ void Session::record(const Trial& answered) {
     since_break_ = break_is_due() ? 1 : since_break_ + 1;
     last_round_shown_ = answered.round;
     ++presentations_;
-    can_void_ = true;
-    counted_.push_back(answered);
-    apply(answered);
+    can_void_ = !answered.is_void;
+    if (!answered.is_void) {
+        counted_.push_back(answered);
+        apply(answered);
+    }
     plan();
 }
 
@@ -222,7 +224,6 @@ Session resumed_session(const Design& design, const SessionIdentity& identity, c
                     is_close(trial.radius_px, planned.radius_px),
                 "has another radius than its engine suggests");
         session.record(trial);
-        if (trial.is_void) session.void_last();
     }
     return session;
 }

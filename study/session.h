@@ -41,7 +41,8 @@ class Session {
     /// The trial to show now, without its answer; none when all rounds are done.
     const std::optional<Trial>& next() const { return next_; }
 
-    /// Takes in `next()` with its answer.
+    /// Takes in `next()` with its answer. One that is void, because it was taken back already, only counts as shown: the same
+    /// as `record` and `void_last`, without what undoing costs.
     void record(const Trial& answered);
 
     /// Whether there is a last trial, and it wasn't taken back already.

@@ -1,6 +1,7 @@
 #include "stimuli/io/output_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,9 +18,32 @@ namespace {
 constexpr uintmax_t kLargestFile = uintmax_t{1} << 30;
 constexpr const char* kPartialMark = ".partial-";
 
+/// A new, empty file that nobody but its owner can open.
+void create_for_owner(const fs::path& path, const fs::path& final_path) {
+    unlink(path.c_str());  // of a process with the same number that was killed
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL, S_IRUSR | S_IWUSR);
+    if (file < 0) throw FailureError(final_path.string(), std::strerror(errno), "check the folder and the disk");
+    close(file);
+}
+
+/// As fs::create_directories, each new one for its owner alone.
+void create_folders_for_owner(const fs::path& folder, std::error_code& error) {
+    if (folder.empty() || fs::is_directory(folder, error)) {
+        error.clear();
+        return;
+    }
+    create_folders_for_owner(folder.parent_path(), error);
+    if (error) return;
+    // "a/b/" ends in an empty name, and "a/b" was made a moment ago.
+    const int problem = mkdir(folder.c_str(), S_IRWXU) == 0 ? 0 : errno;
+    const bool is_there = fs::is_directory(folder, error);
+    error.clear();
+    if (!is_there) error.assign(problem, std::generic_category());
+}
+
 }  // namespace
 
-OutputFile::OutputFile(fs::path final_path) : final_path_(std::move(final_path)) {
+OutputFile::OutputFile(fs::path final_path, Access access) : final_path_(std::move(final_path)) {
     fs::path folder = final_path_.parent_path();
     if (folder.empty()) folder = ".";
     std::error_code error;
@@ -29,12 +53,13 @@ OutputFile::OutputFile(fs::path final_path) : final_path_(std::move(final_path))
     if (fs::is_directory(final_path_, error)) {
         throw FailureError(final_path_.string(), "is a folder", "name a file");
     }
-    if (access(folder.c_str(), W_OK) != 0) {
+    if (::access(folder.c_str(), W_OK) != 0) {
         throw FailureError(final_path_.string(), "its folder can't be written",
                            "choose another or change its permissions");
     }
     partial_path_ = folder / ("." + final_path_.stem().string() + kPartialMark + std::to_string(getpid()) +
                               final_path_.extension().string());
+    if (access == Access::owner_only) create_for_owner(partial_path_, final_path_);
 }
 
 OutputFile::~OutputFile() {
@@ -60,8 +85,8 @@ std::optional<std::string> partial_file_stem(const std::string& file_name) {
     return file_name.substr(1, mark - 1);
 }
 
-void write_file(const fs::path& path, std::string_view text) {
-    OutputFile output(path);
+void write_file(const fs::path& path, std::string_view text, Access access) {
+    OutputFile output(path, access);
     {
         std::ofstream file(output.path(), std::ios::binary);
         file.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -71,14 +96,18 @@ void write_file(const fs::path& path, std::string_view text) {
     output.commit();
 }
 
-void make_output_folder(const fs::path& folder) {
+void make_output_folder(const fs::path& folder, Access access) {
     std::error_code error;
-    fs::create_directories(folder, error);
+    if (access == Access::owner_only) {
+        create_folders_for_owner(folder, error);
+    } else {
+        fs::create_directories(folder, error);
+    }
     if (error || !fs::is_directory(folder)) {
         const std::string reason = error ? error.message() : "is not a folder";
         throw FailureError(folder.string(), "can't create this output folder: " + reason, "choose another --out");
     }
-    if (access(folder.c_str(), W_OK) != 0) {
+    if (::access(folder.c_str(), W_OK) != 0) {
         throw FailureError(folder.string(), "this output folder can't be written", "choose another --out");
     }
 }

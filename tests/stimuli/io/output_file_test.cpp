@@ -1,6 +1,7 @@
 #include "stimuli/io/output_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -37,6 +38,31 @@ TEST(OutputFile, PartialFilesAreKnownByTheirNames) {
     for (const char* other : {"step_r17.5.png", "step.partial-1.png", ".partial-1.png", ".hidden", ""}) {
         EXPECT_EQ(partial_file_stem(other), std::nullopt) << other;
     }
+}
+
+TEST(OutputFile, IsItsOwnersAloneFromTheStart) {
+    const TemporaryFolder folder;
+    const auto mode = [](const std::filesystem::path& path) { return std::filesystem::status(path).permissions(); };
+    const mode_t before = umask(0);
+    {
+        OutputFile secret(folder.path() / "a", Access::owner_only);
+        EXPECT_EQ(mode(secret.path()), std::filesystem::perms(0600));  // before anything is in it
+        std::ofstream(secret.path()) << "x";
+        secret.commit();
+        write_file(folder.path() / "b", "x");
+        make_output_folder(folder.path() / "c/d/", Access::owner_only);
+        make_output_folder(folder.path() / "e");
+        make_output_folder(folder.path() / "e/f", Access::owner_only);
+    }
+    umask(before);
+    EXPECT_EQ(mode(folder.path() / "a"), std::filesystem::perms(0600));
+    EXPECT_EQ(mode(folder.path() / "b"), std::filesystem::perms(0666));
+    EXPECT_EQ(mode(folder.path() / "c"), std::filesystem::perms(0700));
+    EXPECT_EQ(mode(folder.path() / "c/d"), std::filesystem::perms(0700));
+    EXPECT_EQ(mode(folder.path() / "e"), std::filesystem::perms(0777));
+    EXPECT_EQ(mode(folder.path() / "e/f"), std::filesystem::perms(0700));
+    EXPECT_THROW(make_output_folder("/proc/self/stairstep/x", Access::owner_only), FailureError);
+    EXPECT_THROW(make_output_folder(folder.path() / "a/x", Access::owner_only), FailureError);
 }
 
 TEST(OutputFile, SaysWhyItCannotBe) {
