@@ -149,6 +149,18 @@ void publish(OutputFile& file, const fs::path& path) {
     file.commit();  // a file system without hard links
 }
 
+/// Removes what processes left behind that were killed while they made a database of this name.
+void remove_partial_files(const fs::path& path) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder_of(path), error)) {
+        const fs::path& file = entry.path();
+        if (partial_file_stem(file.filename().string()) == path.stem().string() &&
+            file.extension() == path.extension()) {
+            fs::remove(file, error);
+        }
+    }
+}
+
 }  // namespace
 
 bool is_in_memory(const fs::path& path) {
@@ -238,6 +250,7 @@ SQLite::Database open_database_to_write(const fs::path& path) try {
     require_study(database, path);
     make_durable(database, path);
     if (schema_version(database) != kSchemaVersion) migrate_schema(database);
+    remove_partial_files(path);  // whoever is making one now comes too late
     return database;
 } catch (const SQLite::Exception& e) {
     rethrow(path, e);

@@ -67,7 +67,9 @@ TrialStore TrialStore::open(const std::filesystem::path& path) {
 }
 
 TrialStore TrialStore::open_to_write(const std::filesystem::path& path) {
-    return {path, open_database_to_write(path), true};
+    TrialStore store(path, open_database_to_write(path), true);
+    WriterLock::tidy_up(path);
+    return store;
 }
 
 int TrialStore::begin_session(const SessionRecord& session) {

@@ -41,6 +41,9 @@ std::string this_process() {
     return "process " + std::to_string(getpid()) + " of " + user_name() + " on " + host_name() + " since " + since;
 }
 
+/// Whoever tidies up holds a lock for microseconds: it takes more than one refusal to be refused.
+constexpr int kRefusals = 10;
+
 /// What a holder wrote into its file. It may be about to: wait a little for it.
 std::string holder(int descriptor) {
     for (int attempt = 0; attempt < 20; ++attempt) {
@@ -72,22 +75,22 @@ WriterLock::WriterLock(const std::filesystem::path& database, const std::string&
     file_ = std::filesystem::canonical(database, error);  // one lock, however the database is named
     if (error) fail(error.message(), "check the path");
     file_ += "." + part + ".lock";
-    while (true) {
+    for (int refusals = 0;;) {
         descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
         if (descriptor_ < 0) {
             fail(std::string("can't make its lock (") + std::strerror(errno) + ")",
                  "check the permissions of " + file_.string());
         }
-        if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-            if (errno == EINTR) {
-                close(descriptor_);
-                continue;
-            }
-            if (errno != EWOULDBLOCK) fail(std::strerror(errno), "put the database on a file system with locks");
+        if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+            // Its last holder may have removed the file between our opening and our locking it.
+            if (is_still_named(descriptor_, file_)) break;
+        } else if (errno != EWOULDBLOCK && errno != EINTR) {
+            fail(std::strerror(errno), "put the database on a file system with locks");
+        } else if (++refusals == kRefusals) {
             fail("is being written by " + holder(descriptor_), "wait for it or stop it");
+        } else {
+            usleep(5000);
         }
-        // Its last holder may have removed the file between our opening and our locking it.
-        if (is_still_named(descriptor_, file_)) break;
         close(descriptor_);
     }
     // For whoever asks; the lock holds without it, on a full disk too.
@@ -99,6 +102,20 @@ WriterLock::~WriterLock() {
     if (descriptor_ < 0) return;
     unlink(file_.c_str());  // while it is still ours
     close(descriptor_);
+}
+
+void WriterLock::tidy_up(const std::filesystem::path& database) {
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::canonical(database, error);
+    const std::string start = path.filename().string() + ".";
+    for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), error)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(start) || !name.ends_with(".lock")) continue;
+        const int file = open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+        if (file < 0) continue;
+        if (flock(file, LOCK_EX | LOCK_NB) == 0 && is_still_named(file, entry.path())) unlink(entry.path().c_str());
+        close(file);
+    }
 }
 
 WriterLock::WriterLock(WriterLock&& other) noexcept

@@ -20,6 +20,9 @@ class WriterLock {
     WriterLock(WriterLock&& other) noexcept;
     WriterLock& operator=(WriterLock&&) = delete;
 
+    /// Removes the files that killed holders of a database's locks left behind.
+    static void tidy_up(const std::filesystem::path& database);
+
   private:
     std::filesystem::path file_;
     int descriptor_ = -1;

@@ -23,7 +23,7 @@ namespace {
 #if defined(__SANITIZE_ADDRESS__)
 constexpr int kKills = 60;
 #else
-constexpr int kKills = 850;  // tests/programs/simulate_test.cpp has the rest of a thousand
+constexpr int kKills = 810;  // tests/programs/simulate_test.cpp has the rest of a thousand
 #endif
 
 /// What a writer says through a pipe once the store has returned.

@@ -89,6 +89,16 @@ TEST_F(WriterLockTest, GoesWithItsFileWhenReleased) {
     EXPECT_EQ(refusal(), "");
 }
 
+TEST_F(WriterLockTest, TidiesUpAfterTheKilledOnly) {
+    const WriterLock held(database_, "session-1");
+    write_file(file_, "process 1 of root on here since 2026-01-01T00:00:00Z\n");
+    write_file(folder_.path() / "other.sqlite.session-3.lock", "");
+    WriterLock::tidy_up(database_);
+    EXPECT_FALSE(std::filesystem::exists(file_));
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "study.sqlite.session-1.lock"));
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "other.sqlite.session-3.lock"));
+}
+
 TEST_F(WriterLockTest, IsNotFooledByAFileThatNamesALivingProcess) {
     write_file(file_, "process 1 of root on here since 2026-01-01T00:00:00Z\n");
     EXPECT_EQ(refusal(), "");
