@@ -101,14 +101,17 @@ Job begin_job(const SimulateOptions& options) {
 }
 
 Job resumed_job(const SimulateOptions& options) {
-    TrialStore store = TrialStore::open_to_write(options.database);
-    std::optional<WriterLock> lock(std::in_place, options.database, "simulation");
-    const Design design = design_from_json(store.design_json(), options.database + ": design");
+    // Read first: what is refused stays as it was, its schema included.
+    const TrialStore begun = TrialStore::open(options.database);
+    const Simulation stored = simulation_from_json(begun.plan_json(), options.database + ": plan");
+    const Simulation simulation = agreed_simulation(options, stored);
+    const Design design = design_from_json(begun.design_json(), options.database + ": design");
     if (!options.design_file.empty() && to_json(read_design(options.design_file)) != to_json(design)) {
         throw InputError(options.design_file, "isn't the design that the database was begun with", kContradiction);
     }
-    const Simulation stored = simulation_from_json(store.plan_json(), options.database + ": plan");
-    return {std::move(store), std::move(lock), design, agreed_simulation(options, stored)};
+    TrialStore store = TrialStore::open_to_write(options.database);
+    std::optional<WriterLock> lock(std::in_place, options.database, "simulation");
+    return {std::move(store), std::move(lock), design, simulation};
 }
 
 /// One line for each trial, or each one taken back, with what its track's engine makes of it.

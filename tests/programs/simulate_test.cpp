@@ -16,6 +16,7 @@
 #include "stimuli/io/temporary_folder.h"
 #include "stimuli/random.h"
 #include "tests/support/command.h"
+#include "tests/support/version_1_study.h"
 
 namespace stairstep {
 namespace {
@@ -217,6 +218,11 @@ TEST_F(Simulate, RefusesToGoOnWithWhatContradictsTheDatabase) {
     expect_refused(resume + " --design other.json", "other.json: isn't the design");
     expect_refused("stairstep-study simulate --db s.sqlite --seed 2", "s.sqlite: already exists");
     expect_refused("stairstep-study simulate --resume --db :memory:", "--resume: nothing is kept");
+    // What an older version recorded is not brought to this one in passing.
+    make_version_1_study(folder_.path() / "old.sqlite");
+    expect_refused("stairstep-study simulate --resume --db old.sqlite", "old.sqlite: plan");
+    EXPECT_NE(done("stairstep-study check --db old.sqlite").find("2 sessions of an older version can't be replayed"),
+              std::string::npos);
     // The design is compared by what it says, not by how it is written.
     done("stairstep-study design design.json >whole.json");
     done(resume + " --seed 2 --lapse 0.03 --observers 2 --design whole.json");
