@@ -1,6 +1,7 @@
 CREATE TABLE study (
     name TEXT NOT NULL,
     design TEXT NOT NULL,           -- JSON
+    plan TEXT NOT NULL,             -- JSON: who takes part, where that is known beforehand; else {}
     program TEXT NOT NULL           -- version that created the database
 ) STRICT;
 
@@ -10,7 +11,8 @@ CREATE TABLE session (
     observer_index INTEGER NOT NULL, -- from 0; decides the order of rounds
     seed INTEGER NOT NULL,
     observer_kind TEXT NOT NULL,
-    observer_settings TEXT NOT NULL -- JSON
+    observer_settings TEXT NOT NULL, -- JSON
+    schema INTEGER NOT NULL         -- version of the schema that it was recorded in
 ) STRICT;
 
 CREATE TABLE session_end (
@@ -60,3 +62,11 @@ CREATE TRIGGER session_end_is_final_update BEFORE UPDATE ON session_end BEGIN SE
 CREATE TRIGGER session_end_is_final_delete BEFORE DELETE ON session_end BEGIN SELECT RAISE(ABORT, 'append-only'); END;
 CREATE TRIGGER study_is_final_update BEFORE UPDATE ON study BEGIN SELECT RAISE(ABORT, 'append-only'); END;
 CREATE TRIGGER study_is_final_delete BEFORE DELETE ON study BEGIN SELECT RAISE(ABORT, 'append-only'); END;
+
+-- A session that has ended stays ended.
+CREATE TRIGGER trial_comes_before_end BEFORE INSERT ON trial
+    WHEN EXISTS (SELECT 1 FROM session_end WHERE session = NEW.session)
+    BEGIN SELECT RAISE(ABORT, 'the session has ended'); END;
+CREATE TRIGGER void_comes_before_end BEFORE INSERT ON void
+    WHEN EXISTS (SELECT 1 FROM session_end WHERE session = NEW.session)
+    BEGIN SELECT RAISE(ABORT, 'the session has ended'); END;

@@ -188,6 +188,7 @@ SessionOutcome run_session(Session& session, const Observer& observer, const Ses
                 if (session.can_void_last()) {
                     log.mark_void(trial.presentation - 1);
                     session.void_last();
+                    log.learnt();
                 }
                 continue;
             case Action::answer: break;
@@ -198,6 +199,7 @@ SessionOutcome run_session(Session& session, const Observer& observer, const Ses
         trial.dropped_frames = answer.dropped_frames;
         log.record(trial);
         session.record(trial);
+        log.learnt();
     }
     return SessionOutcome::finished;
 }

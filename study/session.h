@@ -92,6 +92,8 @@ struct SessionLog {
     std::function<void(const Trial&)> record = [](const Trial&) {};
     /// The trial of this presentation is taken back.
     std::function<void(int presentation)> mark_void = [](int) {};
+    /// The session has taken in what was recorded, or marked, just before.
+    std::function<void()> learnt = [] {};
 };
 
 enum class SessionOutcome { finished, paused, aborted };

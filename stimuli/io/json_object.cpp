@@ -59,6 +59,13 @@ void JsonObject::read(const std::string& key, int& field) {
     field = static_cast<int>(*number);
 }
 
+void JsonObject::read(const std::string& key, uint64_t& field) {
+    const json* value = find(key);
+    if (!value) return;
+    if (!value->is_number_unsigned()) reject(key, "is no whole number from 0 on", "write for example 1");
+    field = value->get<uint64_t>();
+}
+
 void JsonObject::read(const std::string& key, bool& field) {
     const json* value = find(key);
     if (!value) return;

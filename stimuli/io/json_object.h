@@ -2,6 +2,7 @@
 // misspelt.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -21,6 +22,8 @@ class JsonObject {
     void read(const std::string& key, double& field);
     void read(const std::string& key, std::optional<double>& field);
     void read(const std::string& key, int& field);
+    /// From 0 to 2⁶⁴ − 1, all digits kept: a seed.
+    void read(const std::string& key, uint64_t& field);
     void read(const std::string& key, bool& field);
     void read(const std::string& key, std::string& field);
     void read(const std::string& key, std::vector<double>& field);

@@ -8,7 +8,9 @@ class App;
 
 namespace stairstep {
 
+void add_design_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_check_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_quest_command(CLI::App& app);
 void add_status_command(CLI::App& app);

@@ -1,7 +1,7 @@
 #include "study/store.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,28 +9,26 @@
 #include "stimuli/io/output_file.h"
 #include "stimuli/io/temporary_folder.h"
 #include "study/trials_csv.h"
+#include "tests/support/stored_trials.h"
+
+namespace {
+
+int syncs = 0;
+
+}  // namespace
+
+// SQLite finds these first: they count, and then do what they stand for.
+extern "C" int fdatasync(int file) {
+    ++syncs;
+    return static_cast<int>(syscall(SYS_fdatasync, file));
+}
+extern "C" int fsync(int file) {
+    ++syncs;
+    return static_cast<int>(syscall(SYS_fsync, file));
+}
 
 namespace stairstep {
 namespace {
-
-Trial some_trial(int session, int number) {
-    Trial trial;
-    trial.study = "s";
-    trial.observer = "o1";
-    trial.session = session;
-    trial.track = 3;
-    trial.trial = number;
-    trial.presentation = number;
-    trial.condition = {Pattern::stair, KernelShape::box, 0.5, 20};
-    trial.suggested_radius_px = 50.1;
-    trial.radius_px = 50.1 / number;
-    trial.stimulus = Judgement::line;
-    trial.response = number % 2 == 0 ? Judgement::line : Judgement::artifact;
-    trial.response_time_s = 0.75;
-    trial.shown_at_s = 946684800.25;
-    trial.dropped_frames = 1;
-    return trial;
-}
 
 TEST(TrialStore, ReadsBackWhatWasRecorded) {
     const TemporaryFolder folder;
@@ -64,46 +62,101 @@ TEST(TrialStore, LeavesOneFileBehindWhoeverReadsIt) {
     EXPECT_EQ(files, 1);
 }
 
-TEST(TrialStore, IsDurableInWalWithFullSync) {
+TEST(TrialStore, SyncsEveryTrialToTheDiskBeforeItReturns) {
     const TemporaryFolder folder;
-    TrialStore::create(folder.path() / "study.sqlite", "s", "{}");
-    SQLite::Database database((folder.path() / "study.sqlite").string());
+    const auto path = folder.path() / "study.sqlite";
+    int session = 0;
+    const auto expect_syncs = [&session](TrialStore& store, int first) {
+        for (int i = first; i < first + 5; ++i) {
+            const int before = syncs;
+            store.append(some_trial(session, i));
+            EXPECT_GT(syncs, before);
+        }
+        const int before = syncs;
+        store.mark_void(session, first);
+        EXPECT_GT(syncs, before);
+    };
+    {
+        TrialStore store = TrialStore::create(path, "s", "{}");
+        session = store.begin_session(some_session());
+        expect_syncs(store, 1);
+    }
+    TrialStore store = TrialStore::open_to_write(path);
+    expect_syncs(store, 6);
+    SQLite::Database database(path.string());
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
 }
 
-TEST(TrialStore, LosesNoAcknowledgedTrialWhenKilled) {
+TEST(TrialStore, GoesOnWithWhatWasBegun) {
     const TemporaryFolder folder;
-    for (int round = 0; round < 8; ++round) {
-        const auto path = folder.path() / ("study" + std::to_string(round) + ".sqlite");
-        int acknowledged[2];
-        ASSERT_EQ(pipe(acknowledged), 0);
-        const pid_t child = fork();
-        ASSERT_GE(child, 0);
-        if (child == 0) {
-            close(acknowledged[0]);
-            TrialStore store = TrialStore::create(path, "s", "{}");
-            const int session = store.begin_session({1, "o1", 0, 1, "simulated", "{}", std::nullopt});
-            for (int i = 1;; ++i) {
-                store.append(some_trial(session, i));
-                if (write(acknowledged[1], "x", 1) != 1) _exit(1);
+    const auto path = folder.path() / "study.sqlite";
+    {
+        TrialStore store = TrialStore::create(path, "s", "{}", "{\"b\":2}");
+        const int session = store.begin_session(some_session());
+        store.append(some_trial(session, 1));
+        store.end_session(store.begin_session(some_session()), SessionEnd::aborted);
+    }
+    {
+        TrialStore store = TrialStore::open_to_write(path);
+        EXPECT_EQ(store.plan_json(), "{\"b\":2}");
+        store.hold_session(1);
+        store.append(some_trial(1, 2));
+        store.end_session(1, SessionEnd::finished);
+        EXPECT_THROW(store.append(some_trial(1, 3)), InputError);  // has ended
+        EXPECT_THROW(store.hold_session(2), InputError);
+        EXPECT_THROW(store.hold_session(3), InputError);  // never began
+        EXPECT_EQ(store.begin_session(some_session()), 3);
+    }
+    EXPECT_EQ(TrialStore::open(path).trials(1).size(), 2u);
+    EXPECT_TRUE(TrialStore::open(path).trials(2).empty());
+}
+
+TEST(TrialStore, IsWrittenByOneProcessASessionAndByManyADatabase) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "study.sqlite";
+    TrialStore store = TrialStore::create(path, "s", "{}");
+    const int session = store.begin_session(some_session());
+    TrialStore second = TrialStore::open_to_write(path);
+    EXPECT_THROW(second.hold_session(session), FailureError);
+    EXPECT_THROW(second.append(some_trial(session, 1)), FailureError);
+
+    std::vector<pid_t> children;
+    for (int i = 0; i < 3; ++i) {
+        children.push_back(fork());
+        if (children.back() == 0) {
+            try {
+                TrialStore own = TrialStore::open_to_write(path);
+                const int own_session = own.begin_session(some_session());
+                for (int k = 1; k <= 40; ++k) own.append(some_trial(own_session, k));
+                own.end_session(own_session, SessionEnd::finished);
+                _exit(0);
+            } catch (...) {
+                _exit(1);
             }
         }
-        close(acknowledged[1]);
-        // Kill after a number of trials that differs each time, in the middle of whatever comes next.
-        char mark;
-        size_t count = 0;
-        while (count < 5u + 7u * round && read(acknowledged[0], &mark, 1) == 1) ++count;
-        usleep(150 * round);
-        kill(child, SIGKILL);
-        waitpid(child, nullptr, 0);
-        while (read(acknowledged[0], &mark, 1) == 1) ++count;
-        close(acknowledged[0]);
-
-        const std::vector<Trial> trials = TrialStore::open(path).trials();
-        EXPECT_GE(trials.size(), count);
-        EXPECT_LE(trials.size(), count + 1);  // one may have been recorded, not yet acknowledged
-        for (size_t i = 0; i < trials.size(); ++i) EXPECT_EQ(trials[i].trial, static_cast<int>(i) + 1);
     }
+    for (int k = 1; k <= 40; ++k) store.append(some_trial(session, k));
+    for (const pid_t child : children) {
+        int status = 0;
+        waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    }
+    store.end_session(session, SessionEnd::finished);
+    EXPECT_EQ(store.sessions().size(), 4u);
+    for (const SessionRecord& record : store.sessions()) {
+        std::vector<Trial> expected;
+        for (int k = 1; k <= 40; ++k) expected.push_back(some_trial(record.session, k));
+        EXPECT_EQ(trials_csv(store.trials(record.session)), trials_csv(expected));
+    }
+}
+
+TEST(TrialStore, KeepsNothingOfADatabaseInMemory) {
+    TrialStore store = TrialStore::create(":memory:", "s", "{}");
+    const int session = store.begin_session(some_session());
+    store.append(some_trial(session, 1));
+    store.end_session(session, SessionEnd::finished);
+    EXPECT_EQ(store.trials().size(), 1u);
+    EXPECT_FALSE(std::filesystem::exists(":memory:"));
 }
 
 TEST(TrialStore, IsNeverOverwrittenNorChanged) {
