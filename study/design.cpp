@@ -74,7 +74,7 @@ void require_valid(const Design& d, const std::string& source) {
             "use for example [640, 480]");
     require(!d.viewing || (is_positive(d.viewing->distance_mm) && is_positive(d.viewing->pixel_pitch_mm)), "viewing",
             "needs lengths above 0 mm", "use for example {\"distance_mm\": 600, \"pixel_pitch_mm\": 0.25}");
-    RoundEngine(engine_settings(d), 1);  // throws for settings that are out of range
+    RoundEngine(engine_settings(d), d.texels_px.size(), 1);  // throws for settings that are out of range
 }
 
 std::vector<Round> rounds_for(const Design& design, int observer_index) {
@@ -96,7 +96,7 @@ std::vector<Round> rounds_for(const Design& design, int observer_index) {
 
 EngineSettings engine_settings(const Design& design) {
     EngineSettings settings = design.engine;
-    std::visit([&](auto& s) { s.guess = -std::log10(design.guess_radius_texels); }, settings);
+    guess_of(settings) = -std::log10(design.guess_radius_texels);
     return settings;
 }
 

@@ -7,66 +7,12 @@
 #include "stimuli/io/json_file.h"
 #include "stimuli/io/json_object.h"
 #include "stimuli/io/output_file.h"
+#include "study/engine_json.h"
 
 namespace stairstep {
 namespace {
 
 using nlohmann::ordered_json;
-
-void add_shape(ordered_json& object, const PsychometricShape& shape) {
-    object["p_threshold"] = shape.p_threshold;
-    object["beta"] = shape.beta;
-    object["gamma"] = shape.gamma;
-    object["delta"] = shape.delta;
-}
-
-void read_shape(JsonObject& object, PsychometricShape& shape) {
-    object.read("p_threshold", shape.p_threshold);
-    object.read("beta", shape.beta);
-    object.read("gamma", shape.gamma);
-    object.read("delta", shape.delta);
-}
-
-// For each engine: its name, and its settings to JSON and back.
-
-const char* engine_name(const QuestSettings&) {
-    return "quest";
-}
-
-void add_settings(ordered_json& object, const QuestSettings& settings) {
-    object["guess_sd"] = settings.guess_sd;
-    add_shape(object, settings.shape);
-    object["grain"] = settings.grain;
-    object["range"] = settings.range;
-}
-
-void read_settings(JsonObject& object, QuestSettings& settings) {
-    object.read("guess_sd", settings.guess_sd);
-    read_shape(object, settings.shape);
-    object.read("grain", settings.grain);
-    object.read("range", settings.range);
-}
-
-/// The settings, all defaults, of the engine that has this name.
-template <size_t I = 0>
-std::optional<EngineSettings> engine_named(const std::string& name) {
-    if constexpr (I == std::variant_size_v<EngineSettings>) {
-        return std::nullopt;
-    } else {
-        const std::variant_alternative_t<I, EngineSettings> settings;
-        return name == engine_name(settings) ? EngineSettings(settings) : engine_named<I + 1>(name);
-    }
-}
-
-template <size_t I = 0>
-std::string engine_names() {
-    if constexpr (I == std::variant_size_v<EngineSettings>) {
-        return "";
-    } else {
-        return (I > 0 ? ", " : "") + std::string(engine_name(std::variant_alternative_t<I, EngineSettings>{})) +
-               engine_names<I + 1>();
-    }
-}
 
 std::optional<Pattern> pattern_named(const std::string& text) {
     for (const Pattern pattern : {Pattern::step, Pattern::stair}) {
@@ -94,9 +40,8 @@ void read_task(JsonObject object, Design& design) {
 }
 
 void read_engine(JsonObject object, Design& design) {
-    object.read_named("name", design.engine, engine_named<>, engine_names().c_str());
     object.read("guess_radius_texels", design.guess_radius_texels);
-    std::visit([&](auto& settings) { read_settings(object, settings); }, design.engine);
+    read_engine(object, design.engine);
     object.refuse_other_keys();
 }
 
@@ -139,13 +84,8 @@ ordered_json to_json(const Design& design) {
     ordered_json task{{"name", name(design.task)}};
     if (design.task == Task::yes_no) task["line_share"] = design.line_share;
     ordered_json engine;
-    std::visit(
-        [&](const auto& settings) {
-            engine["name"] = engine_name(settings);
-            engine["guess_radius_texels"] = design.guess_radius_texels;
-            add_settings(engine, settings);
-        },
-        design.engine);
+    add_engine(engine, design.engine);
+    engine["guess_radius_texels"] = design.guess_radius_texels;
     ordered_json stop{{"least_trials", design.stop.least_trials}, {"most_trials", design.stop.most_trials}};
     if (design.stop.converged_sd) stop["converged_sd"] = *design.stop.converged_sd;
 

@@ -10,7 +10,9 @@
 namespace stairstep {
 namespace {
 
-/// Streams of chance: one for each presentation from 1 on, and beyond them one for each deck of a track's coming stimuli.
+/// Streams of chance: one for each presentation from 1 on, and beyond them one for each round's engines and one for each
+/// deck of a track's coming stimuli.
+constexpr uint64_t kFirstEngineStream = uint64_t{1} << 36;
 constexpr uint64_t kFirstDeckStream = uint64_t{1} << 40;
 constexpr uint64_t kDecksPerTrack = uint64_t{1} << 20;
 
@@ -39,7 +41,8 @@ Session::Session(const Design& design, const SessionIdentity& identity) : design
 void Session::begin_round() {
     first_track_ = tracks_.size();
     const std::vector<Condition>& conditions = rounds_[round_].tracks;
-    engine_.emplace(engine_settings(design_), conditions.size());
+    const uint64_t engine_seed = Random(identity_.seed).stream(kFirstEngineStream + round_).bits();
+    engine_.emplace(engine_settings(design_), conditions.size(), engine_seed);
     prior_sd_ = engine_->estimate(0).sd;
     for (size_t k = 0; k < conditions.size(); ++k) {
         tracks_.push_back({static_cast<int>(round_) + 1, conditions[k], engine_->estimate(k), 0, false});

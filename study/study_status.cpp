@@ -74,16 +74,10 @@ SessionProgress progress_of(const Session& session, const Design& design, const 
 }  // namespace
 
 std::optional<double> fisher_bound_sd(const EngineSettings& engine, int trials) {
-    return std::visit(
-        [trials](const auto& settings) -> std::optional<double> {
-            if constexpr (requires { largest_information(settings.shape), 1 / settings.guess_sd; }) {
-                const double prior = 1 / (settings.guess_sd * settings.guess_sd);
-                return 1 / std::sqrt(trials * largest_information(settings.shape) + prior);
-            } else {
-                return std::nullopt;
-            }
-        },
-        engine);
+    const QuestSettings* model = known_shape_model(engine);
+    if (!model) return std::nullopt;
+    const double prior = 1 / (model->guess_sd * model->guess_sd);
+    return 1 / std::sqrt(trials * largest_information(model->shape) + prior);
 }
 
 std::optional<double> TrackStatus::sd_over_bound() const {

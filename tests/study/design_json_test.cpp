@@ -41,6 +41,29 @@ TEST(DesignJson, ReadsBackWhatItWrites) {
     EXPECT_EQ(back.stop.converged_sd, 0.07);
 }
 
+TEST(DesignJson, ReadsBackEveryEngine) {
+    const std::vector<std::string> engines{
+        R"({"name": "quest", "placement": "quantile", "quantile_order": 0.6, "prior": "uniform", "beta": 2})",
+        R"({"name": "minimum-entropy", "guess_sd": 0.3, "delta": 0.02})",
+        R"({"name": "psi-marginal", "beta": [2, 6], "beta_count": 5, "gamma": [0.4, 0.5], "gamma_count": 2})",
+        R"({"name": "staircase", "down_after": 1, "up_over_down": 4.5, "steps": [0.3, 0.1], "beta": 3})",
+        R"({"name": "constant-stimuli", "levels": [-0.2, 0, 0.2], "guess_sd": 1})",
+        R"({"name": "law-directed", "betas": [2, 4], "deltas": [0.02], "deviation_sd": 0.1, "longest_lead": 3})"};
+    for (const std::string& engine : engines) {
+        const Design design = design_from_json("{\"engine\": " + engine + "}", "d");
+        const nlohmann::ordered_json written = to_json(design);
+        EXPECT_EQ(to_json(design_from_json(written.dump(), "d")), written) << engine;
+        // What was asked for is there, and isn't what the engine has by default.
+        const auto asked = nlohmann::json::parse(engine);
+        const auto defaults = to_json(design_from_json(R"({"engine": {"name": )" + asked["name"].dump() + "}}", "d"));
+        for (const auto& [key, value] : asked.items()) {
+            EXPECT_EQ(nlohmann::json(written["engine"][key]), value) << key;
+            if (key == "name") continue;
+            EXPECT_NE(nlohmann::json(defaults["engine"].value(key, nlohmann::json())), value) << key;
+        }
+    }
+}
+
 TEST(DesignJson, AskingForFewTrialsIsEnough) {
     EXPECT_EQ(design_from_json(R"({"stop": {"most_trials": 2}})", "d").stop.least_trials, 2);
 }
@@ -70,6 +93,11 @@ TEST(DesignJson, RefusesWhatCannotBe) {
         {R"({"engine": {"name": "guesswork"}})", "name"},
         {R"({"engine": {"betta": 3}})", "betta"},
         {R"({"engine": {"beta": -3}})", "psychometric shape"},
+        {R"({"engine": {"placement": "anywhere"}})", "placement"},
+        {R"({"engine": {"prior": "flat"}})", "prior"},
+        {R"({"engine": {"name": "minimum-entropy", "prior": "uniform"}})", "prior"},
+        {R"({"engine": {"name": "law-directed", "betas": []}})", "betas"},
+        {R"({"engine": {"name": "psi-marginal", "beta": 3}})", "beta"},
         {R"({"engine": {"guess_sd": 0}})", "guess SD"},
         {R"({"stop": {"most_trials": 0}})", "stop"},
         {R"({"stop": {"most_trials": 2.5}})", "most_trials"},

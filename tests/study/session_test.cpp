@@ -6,6 +6,7 @@
 #include <map>
 
 #include "stimuli/error.h"
+#include "study/design_json.h"
 #include "study/simulated_observer.h"
 #include "study/trials_csv.h"
 
@@ -191,6 +192,38 @@ TEST(Session, GoesOnBitForBitFromAnyPointOfItsRecord) {
         ASSERT_EQ(trials_csv(trials), trials_csv(whole)) << "cut after " << cut;
     }
 }
+
+class EverySessionEngine : public testing::TestWithParam<const char*> {};
+
+TEST_P(EverySessionEngine, GivesTracksTheirTrialsAndResumesBitForBit) {
+    Design design = design_from_json(std::string(R"({"engine": {"name": ")") + GetParam() + "\"}}", "design");
+    design.patterns = {Pattern::step};
+    design.stop.most_trials = 14;
+    SimulatedPopulation population;
+    population.redo_share = 0.05;
+    const std::vector<Trial> whole = simulated_session(20, design, population);
+    const auto tracks = by_track(whole);
+    ASSERT_EQ(tracks.size(), 8u);
+    for (const auto& [track, trials] : tracks) EXPECT_EQ(trials.size(), 14u);
+    const SimulatedObserver observer(population, Random(20), 0);
+    for (const size_t cut : {size_t{1}, whole.size() / 3, whole.size() - 2}) {
+        std::vector<Trial> trials(whole.begin(), whole.begin() + static_cast<long>(cut));
+        Session session = resumed_session(design, {"o", 0, 1, 20}, trials, "record");
+        run_session(session, observer,
+                    {[&](const Trial& trial) { trials.push_back(trial); },
+                     [&](int presentation) { trials[static_cast<size_t>(presentation) - 1].is_void = true; }});
+        EXPECT_EQ(trials_csv(trials), trials_csv(whole)) << "cut after " << cut;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EverySessionEngine,
+                         testing::Values("quest", "minimum-entropy", "psi-marginal", "staircase", "constant-stimuli",
+                                         "law-directed"),
+                         [](const auto& info) {
+                             std::string name = info.param;
+                             std::erase(name, '-');
+                             return name;
+                         });
 
 TEST(Session, StopsWhereTheObserverDoes) {
     for (const auto& [action, outcome] :
