@@ -41,6 +41,7 @@ StimulusSampler::StimulusSampler(const Stimulus& stimulus)
       filter_(stimulus.kernel),
       rotated_(stimulus.kernel.shape == KernelShape::poisson && stimulus.kernel.rotated),
       period_(period_of(edge_, stimulus.kernel, stimulus.width_px, stimulus.height_px)) {
+    if (LineProfile::suits(edge_, stimulus_.kernel)) profile_.emplace(edge_, stimulus_.kernel);
     if (!StaircaseRaster::suits(edge_, stimulus_.kernel)) return;
     const int columns = period_.right > 0 ? period_.right : stimulus_.width_px;
     std::vector<double> xs;
@@ -51,6 +52,11 @@ StimulusSampler::StimulusSampler(const Stimulus& stimulus)
 double StimulusSampler::luminance(int column, int row) const {
     const double rotation = rotated_ ? rotation_at(column, row, stimulus_.kernel.seed) : 0;
     return stimulus_.contrast * filter_.visibility(edge_, pixel_centre(stimulus_, column, row), rotation);
+}
+
+double StimulusSampler::across_line(int column, int row) const {
+    const Point p = pixel_centre(stimulus_, column, row);
+    return stimulus_.contrast * profile_->visibility(p.y - edge_.slope() * p.x);
 }
 
 StimulusSampler::Row::Row(const StimulusSampler& sampler, int row) : sampler_(sampler), row_(row) {

@@ -4,7 +4,8 @@
 // over and above the first that is dark lie the only rows to look at, and where a row's two ends have the same value, so have
 // all between; it is halved until its parts are flat. An edge of rational slope falls onto itself when it moves along
 // itself: one block as wide as that translation holds all values of the picture, and the rest is copied. Neither needs to know
-// the kernel. Staircases, besides, are tabulated by column and row (staircase_raster.h).
+// the kernel. Staircases, besides, are tabulated by column and row (staircase_raster.h), and what lies across a line is a
+// function of one number (line_profile.h).
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "stimuli/line_profile.h"
 #include "stimuli/staircase_raster.h"
 #include "stimuli/stimulus.h"
 #include "stimuli/visibility.h"
@@ -42,8 +44,8 @@ class StimulusSampler {
     class Row {
       public:
         double luminance(int column) const {
-            return raster_row_ ? sampler_.stimulus_.contrast * raster_row_->visibility(column)
-                               : sampler_.luminance(column, row_);
+            if (raster_row_) return sampler_.stimulus_.contrast * raster_row_->visibility(column);
+            return sampler_.profile_ ? sampler_.across_line(column, row_) : sampler_.luminance(column, row_);
         }
 
       private:
@@ -67,12 +69,16 @@ class StimulusSampler {
     bool is_monotone() const { return !rotated_; }
 
   private:
+    double across_line(int column, int row) const;
+
     Stimulus stimulus_;
     Edge edge_;
     Filter filter_;
     bool rotated_;
     Translation period_;
+    /// For staircases, and for lines.
     std::optional<StaircaseRaster> raster_;
+    std::optional<LineProfile> profile_;
 };
 
 /// Fills row[begin … end − 1], whose first and last pixel are there already, by halves.

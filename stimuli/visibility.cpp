@@ -7,23 +7,13 @@
 #include <string>
 
 #include "stimuli/error.h"
+#include "stimuli/line_profile.h"
 #include "stimuli/number.h"
 #include "stimuli/quarter_mass.h"
 #include "stimuli/stair_area.h"
 
 namespace stairstep {
 namespace {
-
-/// Area of the square [−r, r]² above the line y = m·x − y₀, for the point that lies y₀ above the line.
-double square_above_line(double r, double slope, double y0) {
-    // ∫ max(0, t − m·x) dx over [−r, r], for the square's upper and lower side.
-    const auto area_below = [&](double level) {
-        const double rise = slope * r;
-        const double ramp = std::clamp(level + rise, 0.0, 2 * rise);
-        return (rise > 0 ? ramp * ramp / (2 * slope) : 0) + 2 * r * std::max(0.0, level - rise);
-    };
-    return area_below(y0 + r) - area_below(y0 - r);
-}
 
 double cut_normal_density(double x) {
     static const double kScale = std::sqrt(2 / std::numbers::pi) / std::erf(3 / std::numbers::sqrt2);
@@ -121,13 +111,8 @@ double Filter::visibility(const Edge& edge, Point p, double rotation) const {
 }
 
 double Filter::line(const Edge& edge, Point p) const {
-    const double r = kernel_.radius_px;
-    const double m = edge.slope();
-    switch (kernel_.shape) {
-        case KernelShape::box: return square_above_line(r, m, p.y) / (4 * r * r);
-        case KernelShape::gaussian: return gaussian_above_line(m, p.y / r);
-        default: return half_mass(kernel_.shape, kernel_coordinate(kernel_.shape, -p.y / (r * std::sqrt(1 + m * m))));
-    }
+    if (kernel_.shape == KernelShape::gaussian) return gaussian_above_line(edge.slope(), p.y / kernel_.radius_px);
+    return LineProfile(edge, kernel_).visibility(p.y);
 }
 
 double Filter::staircase(const Edge& edge, Point p) const {
