@@ -28,7 +28,7 @@ struct SessionIdentity {
 struct TrackState {
     int round = 1;
     Condition condition;
-    Estimate estimate;
+    ThresholdEstimate estimate;
     int trials = 0;
     bool is_finished = false;
 };

@@ -115,7 +115,7 @@ Job resumed_job(const SimulateOptions& options) {
 }
 
 /// One line for each trial, or each one taken back, with what its track's engine makes of it.
-void print_line(const Trial& trial, const Estimate& estimate) {
+void print_line(const Trial& trial, const ThresholdEstimate& estimate) {
     nlohmann::ordered_json line{{"session", trial.session},   {"presentation", trial.presentation},
                                 {"observer", trial.observer}, {"round", trial.round},
                                 {"track", trial.track},       {"trial", trial.trial},

@@ -35,7 +35,7 @@ class ConstantStimuli {
     /// Takes in an answer given at a finite intensity, log10 units, at a level or not.
     void update(double intensity, bool correct) { posterior_.update(intensity, correct); }
 
-    Estimate estimate() const { return posterior_.estimate(); }
+    ThresholdEstimate estimate() const { return posterior_.estimate(); }
     int trials() const { return posterior_.trials(); }
 
     /// Levels × repetitions.

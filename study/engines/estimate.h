@@ -9,7 +9,7 @@
 
 namespace stairstep {
 
-struct Estimate {
+struct ThresholdEstimate {
     /// T, and how sure the engine is of it: the posterior's mean and standard deviation.
     double threshold = 0;
     double sd = 0;
@@ -22,7 +22,7 @@ template <typename E>
 concept AdaptiveEngine = std::copyable<E> && requires(E engine, const E& known, double intensity, bool correct) {
     { known.suggest() } -> std::same_as<double>;
     { engine.update(intensity, correct) } -> std::same_as<void>;
-    { known.estimate() } -> std::same_as<Estimate>;
+    { known.estimate() } -> std::same_as<ThresholdEstimate>;
     { known.trials() } -> std::same_as<int>;
 };
 

@@ -55,8 +55,8 @@ const LawDirectedSettings& checked(const LawDirectedSettings& settings) {
 
 /// Mean, SD and 95 % interval of a normalised mass on a grid. Each point stands for the cell around it; the mass within a
 /// cell is spread evenly.
-Estimate summary(std::span<const double> mass, double first, double grain) {
-    Estimate estimate;
+ThresholdEstimate summary(std::span<const double> mass, double first, double grain) {
+    ThresholdEstimate estimate;
     for (size_t i = 0; i < mass.size(); ++i) estimate.threshold += mass[i] * (first + static_cast<double>(i) * grain);
     for (size_t i = 0; i < mass.size(); ++i) {
         const double deviation = first + static_cast<double>(i) * grain - estimate.threshold;
@@ -192,7 +192,7 @@ void LawDirected::refresh_posterior() {
     law_ = summary(law, first_value_, grain_);
 }
 
-Estimate LawDirected::track_estimate(int track_index) const {
+ThresholdEstimate LawDirected::track_estimate(int track_index) const {
     assert(track_index >= 0 && track_index < tracks());
     const size_t n = kernel_.points();
     const Track& own = tracks_[static_cast<size_t>(track_index)];

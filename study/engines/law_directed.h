@@ -83,9 +83,9 @@ class LawDirected {
     void update(int track, double intensity, bool correct);
 
     /// θ = −log10 c.
-    const Estimate& estimate() const { return law_; }
+    const ThresholdEstimate& estimate() const { return law_; }
     /// T_k, with what the other tracks say of it.
-    Estimate track_estimate(int track) const;
+    ThresholdEstimate track_estimate(int track) const;
 
     /// E[Var θ] after one more answer in the track at a finite intensity: what suggest() makes smallest.
     double expected_variance(int track, double intensity) const;
@@ -134,7 +134,7 @@ class LawDirected {
     std::vector<Track> tracks_;
     /// P(θ_i, shape).
     std::vector<double> posterior_;
-    Estimate law_;
+    ThresholdEstimate law_;
     int trials_ = 0;
 };
 

@@ -38,15 +38,15 @@ void require_valid(const GainSettings& s) {
     require(s.runs >= static_cast<int>(kFolds), "runs", "must be at least 20");
 }
 
-Deviation deviation(const Estimate& estimate, double truth) {
+Deviation deviation(const ThresholdEstimate& estimate, double truth) {
     return {estimate.threshold - truth, estimate.low <= truth && truth <= estimate.high};
 }
 
-Estimate with_normal_interval(double mean, double sd) {
+ThresholdEstimate with_normal_interval(double mean, double sd) {
     return {mean, sd, mean - kNormal95 * sd, mean + kNormal95 * sd};
 }
 
-Estimate weighted(const std::vector<Quest>& quests, double deviation_sd) {
+ThresholdEstimate weighted(const std::vector<Quest>& quests, double deviation_sd) {
     double weights = 0, sum = 0;
     for (const Quest& quest : quests) {
         const double weight = 1 / (deviation_sd * deviation_sd + quest.sd() * quest.sd());
@@ -56,7 +56,7 @@ Estimate weighted(const std::vector<Quest>& quests, double deviation_sd) {
     return with_normal_interval(sum / weights, 1 / std::sqrt(weights));
 }
 
-Estimate unweighted(const std::vector<Quest>& quests, double deviation_sd) {
+ThresholdEstimate unweighted(const std::vector<Quest>& quests, double deviation_sd) {
     const auto count = static_cast<double>(quests.size());
     double sum = 0, variance = 0;
     for (const Quest& quest : quests) {
@@ -87,7 +87,7 @@ Run simulate_run(const GainSettings& s, const LawDirected& fresh, Random random)
     const auto tracks = static_cast<uint64_t>(s.engine.tracks);
     const int trials = s.checkpoints.back();
     Run run;
-    const auto note = [&](GainMethod method, const Estimate& estimate) {
+    const auto note = [&](GainMethod method, const ThresholdEstimate& estimate) {
         run[static_cast<size_t>(method)].push_back(deviation(estimate, truth.law));
     };
 

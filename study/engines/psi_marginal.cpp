@@ -199,7 +199,7 @@ double PsiMarginal::quantile(double order) const {
     return t.threshold_at(t.columns - 1) + t.settings.grain / 2;
 }
 
-Estimate PsiMarginal::estimate() const {
+ThresholdEstimate PsiMarginal::estimate() const {
     return {mean_, sd_, quantile(0.025), quantile(0.975)};
 }
 

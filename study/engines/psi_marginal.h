@@ -81,7 +81,7 @@ class PsiMarginal {
     double mean() const { return mean_; }
     double sd() const { return sd_; }
     double quantile(double order) const;
-    Estimate estimate() const;
+    ThresholdEstimate estimate() const;
 
     /// Posterior means of ln β, exponentiated, and of δ.
     double beta() const;

@@ -69,7 +69,7 @@ class PsychtoolboxQuest {
     double quantile(double order) const;
 
     /// QuestMean and QuestSd, and the quantiles 0.025 and 0.975. Throws as `quantile`.
-    Estimate estimate() const { return {mean(), sd(), quantile(0.025), quantile(0.975)}; }
+    ThresholdEstimate estimate() const { return {mean(), sd(), quantile(0.025), quantile(0.975)}; }
 
     /// q.quantileOrder: best_quantile_order of study/engines/quest.h, from the table's ends.
     double quantile_order() const { return quantile_order_; }

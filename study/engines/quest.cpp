@@ -313,7 +313,7 @@ double Quest::quantile(double order) const {
     return threshold_at(size_ - 1) + grain_ / 2;
 }
 
-Estimate Quest::estimate() const {
+ThresholdEstimate Quest::estimate() const {
     return {mean(), sd(), quantile(0.025), quantile(0.975)};
 }
 

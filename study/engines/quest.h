@@ -73,7 +73,7 @@ class Quest {
     double mode() const;
     /// T below which `order` of the posterior's mass lies, interpolated between grid points; order in [0, 1].
     double quantile(double order) const;
-    Estimate estimate() const;
+    ThresholdEstimate estimate() const;
 
     int trials() const { return trials_; }
 

@@ -87,7 +87,7 @@ void RoundEngine::update(size_t track, double intensity, bool correct) {
     std::visit([&](auto& e) { e.update(intensity, correct); }, engine);
 }
 
-Estimate RoundEngine::estimate(size_t track) const {
+ThresholdEstimate RoundEngine::estimate(size_t track) const {
     if (const auto* together = std::get_if<LawDirected>(&engines_)) {
         return together->track_estimate(static_cast<int>(track));
     }

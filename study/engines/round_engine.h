@@ -56,7 +56,7 @@ class RoundEngine {
     /// Whether an answer in one track changes the estimates of others.
     bool shares_evidence() const { return std::holds_alternative<LawDirected>(engines_); }
 
-    Estimate estimate(size_t track) const;
+    ThresholdEstimate estimate(size_t track) const;
     int trials(size_t track) const;
 
   private:

@@ -68,8 +68,8 @@ void Staircase::update(double intensity, bool correct) {
     level_ = std::clamp(level_, settings_.posterior.guess - half, settings_.posterior.guess + half);
 }
 
-Estimate Staircase::estimate() const {
-    Estimate estimate = posterior_.estimate();
+ThresholdEstimate Staircase::estimate() const {
+    ThresholdEstimate estimate = posterior_.estimate();
     const std::ptrdiff_t averaged = std::ssize(last_reversals_) / 2 * 2;
     if (averaged == 0) return estimate;
     const double sum = std::accumulate(last_reversals_.end() - averaged, last_reversals_.end(), 0.0);

@@ -11,7 +11,7 @@
 //
 // The threshold is the mean of the last reversals, moved from where Ψ = p to where Ψ = p_threshold under the shape assumed.
 // The scatter of reversals is known to say little about that mean's error, for neighbouring reversals depend on each
-// other. So a grid posterior of T (class Quest) takes in every trial as well. In `Estimate`, low and high are its 2.5 %
+// other. So a grid posterior of T (class Quest) takes in every trial as well. In `ThresholdEstimate`, low and high are its 2.5 %
 // and 97.5 % quantiles, and sd is the root mean square error of the stated threshold under it,
 // √(sd² + (threshold − mean)²): a reversal mean far from what all trials say has a large sd.
 //
@@ -61,7 +61,7 @@ class Staircase {
 
     /// As explained above. With fewer than two reversals the threshold is the posterior mean; with fewer than
     /// averaged_reversals, the mean of the largest even number of the last ones.
-    Estimate estimate() const;
+    ThresholdEstimate estimate() const;
 
     int trials() const { return posterior_.trials(); }
     int reversals() const { return reversals_; }

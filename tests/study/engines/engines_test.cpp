@@ -64,7 +64,7 @@ TYPED_TEST_SUITE(Engines, Variants);
 /// Everything an engine says, to the last bit.
 template <AdaptiveEngine E>
 auto state(const E& engine) {
-    const Estimate e = engine.estimate();
+    const ThresholdEstimate e = engine.estimate();
     const auto bits = [](double value) { return std::bit_cast<uint64_t>(value); };
     return std::tuple(engine.trials(), bits(engine.suggest()), bits(e.threshold), bits(e.sd), bits(e.low),
                       bits(e.high));
@@ -72,7 +72,7 @@ auto state(const E& engine) {
 
 template <AdaptiveEngine E>
 void expect_sound(const E& engine) {
-    const Estimate e = engine.estimate();
+    const ThresholdEstimate e = engine.estimate();
     EXPECT_TRUE(std::isfinite(engine.suggest()));
     EXPECT_TRUE(std::isfinite(e.threshold));
     EXPECT_TRUE(std::isfinite(e.sd) && e.sd >= 0);
@@ -99,7 +99,7 @@ TYPED_TEST(Engines, FindAPlantedThreshold) {
             observe(engine, planted, 200, seed);
             expect_sound(engine);
             EXPECT_EQ(engine.trials(), 200);
-            const Estimate estimate = engine.estimate();
+            const ThresholdEstimate estimate = engine.estimate();
             EXPECT_NEAR(estimate.threshold, planted, 4 * estimate.sd);
             EXPECT_LT(estimate.sd, 0.15);
             EXPECT_LT(estimate.high - estimate.low, 0.3);

@@ -225,8 +225,8 @@ TEST(LawDirected, WithoutDeviationsIsOneQuest) {
     const LawDirected engine = after({.tracks = 2, .guess = -0.3, .deviation_sd = 0, .shapes = {{}}}, some_answers());
     Quest quest({.guess = -0.3});
     for (const auto& [track, x, correct] : some_answers()) quest.update(x, correct);
-    const Estimate expected = quest.estimate();
-    for (const Estimate& e : {engine.estimate(), engine.track_estimate(0), engine.track_estimate(1)}) {
+    const ThresholdEstimate expected = quest.estimate();
+    for (const ThresholdEstimate& e : {engine.estimate(), engine.track_estimate(0), engine.track_estimate(1)}) {
         EXPECT_NEAR(e.threshold, expected.threshold, 1e-12);
         EXPECT_NEAR(e.sd, expected.sd, 1e-12);
         EXPECT_NEAR(e.low, expected.low, 1e-12);
@@ -276,7 +276,7 @@ TEST(LawDirected, IsAValue) {
     LawDirected copy = original;
     EXPECT_EQ(copy.suggest().intensity, original.suggest().intensity);
     EXPECT_EQ(copy.suggest().track, original.suggest().track);
-    const Estimate before = original.estimate();
+    const ThresholdEstimate before = original.estimate();
     copy.update(0, 0.5, false);
     EXPECT_EQ(original.estimate().threshold, before.threshold);
     EXPECT_NE(copy.estimate().threshold, before.threshold);
@@ -333,7 +333,7 @@ TEST(LawDirected, StaysFiniteUnderContradictionsAndExtremes) {
                     const auto [track, x] = engine.suggest();
                     EXPECT_TRUE(std::isfinite(x));
                     EXPECT_TRUE(std::isfinite(engine.expected_variance(track, x)));
-                    for (const Estimate& e : {engine.estimate(), engine.track_estimate(0), engine.track_estimate(1)}) {
+                    for (const ThresholdEstimate& e : {engine.estimate(), engine.track_estimate(0), engine.track_estimate(1)}) {
                         EXPECT_TRUE(std::isfinite(e.threshold) && std::isfinite(e.low) && std::isfinite(e.high));
                         EXPECT_GE(e.sd, 0) << beta << ' ' << rate << ' ' << deviation_sd;
                     }
@@ -390,7 +390,7 @@ TEST(LawDirected, FindsPlantedLawsAsSurelyAsItSays) {
             const double p = probability_correct(shape, threshold_offset(shape), x, thresholds[track]);
             engine.update(track, x, random.uniform() < p);
         }
-        const Estimate found = engine.estimate();
+        const ThresholdEstimate found = engine.estimate();
         squares += std::pow((found.threshold - law) / found.sd, 2) / 50;
         sd += found.sd / 50;
         covered += found.low <= law && law <= found.high;

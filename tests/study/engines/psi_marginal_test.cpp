@@ -166,7 +166,7 @@ TEST(PsiMarginal, StaysFiniteUnderContradictionsAndExtremes) {
                 PsiMarginal psi(s);
                 for (int i = 0; i < 1000; ++i) psi.update(i % 2 == 0 ? 10 : -10, i % 2 != 0);
                 for (const double x : {1e6, -1e6}) psi.update(x, x < 0);
-                const Estimate estimate = psi.estimate();
+                const ThresholdEstimate estimate = psi.estimate();
                 EXPECT_TRUE(std::isfinite(estimate.threshold)) << beta << ' ' << prior_sd;
                 EXPECT_GE(estimate.sd, 0);
                 EXPECT_LE(estimate.low, estimate.high);
@@ -183,7 +183,7 @@ TEST(PsiMarginal, KeepsWhatItKnowsWhenTheImpossibleHappens) {
     s.delta_count = 1;
     PsiMarginal psi(s);
     for (const double x : {-0.2, -0.1, 0.0, 0.05}) psi.update(x, x > -0.15);
-    const Estimate before = psi.estimate();
+    const ThresholdEstimate before = psi.estimate();
     psi.update(1e6, false);
     EXPECT_NEAR(psi.mean(), before.threshold, 1e-12);
     EXPECT_NEAR(psi.sd(), before.sd, 1e-12);
@@ -225,7 +225,7 @@ Accuracy accuracy(const E& untouched, const PsychometricShape& observer, int tri
             engine.update(x,
                           random.uniform() < probability_correct(observer, threshold_offset(observer), x, threshold));
         }
-        const Estimate e = engine.estimate();
+        const ThresholdEstimate e = engine.estimate();
         result.rms += (e.threshold - threshold) * (e.threshold - threshold);
         result.coverage += e.low <= threshold && threshold <= e.high;
     }

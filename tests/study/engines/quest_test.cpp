@@ -102,7 +102,7 @@ long double long_log_likelihood(const PsychometricShape& s, double x, double t, 
 }
 
 void expect_equal(const Quest& quest, const Summary& truth, double tolerance) {
-    const Estimate estimate = quest.estimate();
+    const ThresholdEstimate estimate = quest.estimate();
     EXPECT_NEAR(estimate.threshold, truth.mean, tolerance);
     EXPECT_NEAR(estimate.sd, truth.sd, tolerance);
     EXPECT_NEAR(estimate.low, truth.low, tolerance);
@@ -143,7 +143,7 @@ RC_GTEST_PROP(Quest, PosteriorEqualsTheProductOfLikelihoods, ()) {
         for (const auto& [x, correct] : answers) sum += long_log_likelihood(settings.shape, x, t, correct);
         return sum;
     });
-    const Estimate estimate = quest.estimate();
+    const ThresholdEstimate estimate = quest.estimate();
     // Where δ is about 0 and u large, rounding of x − T alone moves ln(1 − Ψ) = −u by u·10⁻¹⁵.
     const double tolerance = settings.shape.delta < 0.01 ? 1e-6 : 1e-11;
     RC_ASSERT(std::abs(estimate.threshold - truth.mean) <= tolerance);
@@ -200,7 +200,7 @@ TEST(Quest, LosesNothingInAMillionTrials) {
 /// Finite and sensible, whatever was answered.
 void expect_sensible(const Quest& quest, const QuestSettings& s) {
     const double half = std::ceil(s.range / s.grain / 2) * s.grain + 1e-9;
-    const Estimate e = quest.estimate();
+    const ThresholdEstimate e = quest.estimate();
     EXPECT_GE(e.threshold, s.guess - half);
     EXPECT_LE(e.threshold, s.guess + half);
     EXPECT_TRUE(e.sd >= 0 && e.sd <= 2 * half) << e.sd;

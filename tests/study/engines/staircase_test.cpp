@@ -73,7 +73,7 @@ TEST(Staircase, SaysHowFarItsThresholdIsFromWhatAllTrialsSay) {
         staircase.update(x, correct);
         quest.update(x, correct);
     }
-    const Estimate said = staircase.estimate();
+    const ThresholdEstimate said = staircase.estimate();
     const double off = said.threshold - quest.mean();
     EXPECT_NEAR(said.sd * said.sd, quest.sd() * quest.sd() + off * off, 1e-12);
     EXPECT_DOUBLE_EQ(said.low, quest.quantile(0.025));
