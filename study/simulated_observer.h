@@ -1,6 +1,6 @@
 // Simulated observers with thresholds of their own. What is planted here, nothing downstream knows.
 //
-// An observer's true law is r = c·a, with ln c = ln(population slope) + an effect of the observer, part of which
+// An observer's true law is r = c·a (or with an exponent, or deviations from it, to see whether they are found), with ln c = ln(population slope) + an effect of the observer, part of which
 // holds for all conditions and part for one pattern × contrast. An answer is correct with probability Ψ(log10(a/r)) at
 // T = −log10 c, lapses included. Where nothing was seen the observer guesses, with or without a preference, and over a
 // session the threshold may drift and attention tire: what an engine's model of an observer leaves out.
@@ -21,6 +21,10 @@ struct SimulatedPopulation {
     double stair_share = 2.5 / 3.47;
     /// A contrast of 50 % lowers the slope by this share; contrasts between 0.5 and 1 in proportion.
     double half_contrast_loss = 0.04;
+    /// p of r = c·10 px·(a/10 px)^p: 1 is the law; c is then the slope at 10 px. In [0.1, 3].
+    double exponent = 1;
+    /// SD of ln r between an observer's texel sizes, beyond the law; in [0, 2].
+    double deviation_sd = 0;
     /// SD of ln c between observers, ≥ 0, and the share of its variance that all conditions have in common.
     double between_observer_sd = 0.16;
     double common_share = 0.75;
@@ -55,6 +59,9 @@ class SimulatedObserver {
 
     /// The observer's own c for a pattern and contrast.
     double true_slope(Pattern pattern, double contrast) const;
+
+    /// The observer's own radius at threshold, in texels: c where the law holds.
+    double true_radius_texels(const Condition& condition) const;
 
   private:
     SimulatedPopulation population_;

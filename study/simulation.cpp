@@ -24,6 +24,8 @@ SimulatedPopulation population_from(JsonObject object) {
     object.read("step_slope", p.step_slope);
     object.read("stair_share", p.stair_share);
     object.read("half_contrast_loss", p.half_contrast_loss);
+    object.read("exponent", p.exponent);
+    object.read("deviation_sd", p.deviation_sd);
     object.read("between_observer_sd", p.between_observer_sd);
     object.read("common_share", p.common_share);
     object.read("beta", p.shape.beta);

@@ -62,6 +62,24 @@ TEST(SimulatedObserver, DriftMovesTheThreshold) {
     EXPECT_NEAR((artifact + line) / 2, 0.82, 0.02);
 }
 
+TEST(SimulatedObserver, FollowsAnExponentAndDeviates) {
+    const auto radius = [](const SimulatedPopulation& population, uint64_t seed, double texel_px) {
+        const SimulatedObserver observer(population, Random(seed), 0);
+        return observer.true_radius_texels({Pattern::step, KernelShape::box, 1, texel_px}) * texel_px;
+    };
+    // r(20)/r(5) = 4^p, the same for every observer.
+    EXPECT_NEAR(radius({.exponent = 0.8}, 3, 20) / radius({.exponent = 0.8}, 3, 5), std::pow(4, 0.8), 1e-12);
+    EXPECT_NEAR(radius({.exponent = 0.8}, 3, 10), radius({}, 3, 10), 1e-12);
+    double squares = 0;
+    constexpr int kObservers = 5000;
+    for (int i = 0; i < kObservers; ++i) {
+        const auto seed = static_cast<uint64_t>(i);
+        const double deviation = std::log(radius({.deviation_sd = 0.1}, seed, 20) / radius({}, seed, 20));
+        squares += deviation * deviation;
+    }
+    EXPECT_NEAR(std::sqrt(squares / kObservers), 0.1, 0.004);
+}
+
 TEST(SimulatedObserver, AnswersDependOnTheNumberOfThePresentationAlone) {
     const SimulatedObserver observer({}, Random(5), 0);
     const Presentation shown{{Pattern::step, KernelShape::box, 1, 10}, 34, Judgement::line, Task::yes_no, 17};
@@ -99,6 +117,7 @@ TEST(SimulatedObserver, RefusesImpossiblePopulations) {
              [](SimulatedPopulation& p) { p.step_slope = 0; }, [](SimulatedPopulation& p) { p.step_slope = NAN; },
              [](SimulatedPopulation& p) { p.between_observer_sd = -1; },
              [](SimulatedPopulation& p) { p.shape.delta = 0.9; }, [](SimulatedPopulation& p) { p.shape.beta = 0; },
+             [](SimulatedPopulation& p) { p.exponent = 0; }, [](SimulatedPopulation& p) { p.deviation_sd = -0.1; },
              [](SimulatedPopulation& p) { p.response_bias = 0.6; }, [](SimulatedPopulation& p) { p.fatigue = -1; },
              [](SimulatedPopulation& p) { p.drift = NAN; }, [](SimulatedPopulation& p) { p.redo_share = 1; }}) {
         SimulatedPopulation population;
