@@ -20,6 +20,8 @@ namespace {
 
 /// Weights below are worth a warning of their own.
 constexpr double kLowWeight = 0.5;
+/// Weights that are worth fewer than this share of equal ones make Knapp and Hartung's interval too narrow.
+constexpr double kFewObservers = 0.5;
 /// The criterion that texels are compared with: the study's own.
 constexpr double kReferenceProbability = 0.82;
 
@@ -165,7 +167,16 @@ void state_weights(ConditionLaw& law, const FittedCondition& condition, std::vec
         }
         for (double& w : weight) w /= sum;
     }
-    for (size_t j = 0; j < weight.size(); ++j) law.observer_slopes[j].weight = weight[j];
+    double squares = 0;
+    for (size_t j = 0; j < weight.size(); ++j) {
+        law.observer_slopes[j].weight = weight[j];
+        squares += weight[j] * weight[j];
+    }
+    if (const double n = static_cast<double>(weight.size()); 1 / squares < kFewObservers * n) {
+        warnings.push_back(text_of(condition.key) + ": few observers have most of the weight: " + format_number(n) +
+                           " count as " + format_fixed(1 / squares, 1) +
+                           "; the interval may be too narrow, --method mean-t doesn't depend on weights");
+    }
     for (const DownWeighted& d : law.down_weighted) {
         if (d.weight >= kLowWeight) continue;
         warnings.push_back(text_of(condition.key) + ": observer " + d.observer +

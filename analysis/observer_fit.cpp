@@ -79,6 +79,8 @@ std::optional<LawParameters<double>> fit(const std::vector<Threshold>& threshold
     options.gradient_tolerance = 1e-12;
     options.parameter_tolerance = 1e-12;
     options.max_num_iterations = 200;
+    options.max_num_consecutive_invalid_steps =
+        50;  // from so large a radius, steps to a negative r take a while to shrink
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     if (!summary.IsSolutionUsable() || summary.termination_type != ceres::CONVERGENCE) return std::nullopt;

@@ -23,8 +23,9 @@ double mean_of(std::span<const Effect> effects, bool robust) {
 }
 
 /// From ln c to c. Rounding must not push a value out of an interval that is a point.
-Estimate on_ratio_scale(SlopeMethod method, double ln_value, const Interval& ln_interval, const std::string& words) {
-    Estimate estimate{std::string(name(method)), std::exp(ln_value), {}, words};
+SlopeEstimate on_ratio_scale(SlopeMethod method, double ln_value, const Interval& ln_interval,
+                             const std::string& words) {
+    SlopeEstimate estimate{std::string(name(method)), std::exp(ln_value), {}, words};
     estimate.ci95 = {std::min(estimate.value, std::exp(ln_interval.first)),
                      std::max(estimate.value, std::exp(ln_interval.second))};
     return estimate;
@@ -40,7 +41,7 @@ double draw(Random& random, const RandomEffects& fit, double se) {
     return truth + se * random.normal();
 }
 
-Estimate parametric(const std::vector<Effect>& effects, const BootstrapSettings& settings) {
+SlopeEstimate parametric(const std::vector<Effect>& effects, const BootstrapSettings& settings) {
     const RandomEffects fit = fit_random_effects(effects);
     const auto simulate = [&](Random random) {
         std::vector<Effect> study = effects;
@@ -54,7 +55,8 @@ Estimate parametric(const std::vector<Effect>& effects, const BootstrapSettings&
             replicates_text(settings));
 }
 
-Estimate of_thresholds(const SlopeData& data, const std::vector<Effect>& effects, const BootstrapSettings& settings) {
+SlopeEstimate of_thresholds(const SlopeData& data, const std::vector<Effect>& effects,
+                            const BootstrapSettings& settings) {
     assert(data.thresholds.size() == data.observers.size());
     const RandomEffects fit = fit_random_effects(effects);
     const auto simulate = [&](Random random) {
@@ -78,7 +80,7 @@ Estimate of_thresholds(const SlopeData& data, const std::vector<Effect>& effects
                               replicates_text(settings));
 }
 
-Estimate resampled(const std::vector<Effect>& effects, bool robust, const BootstrapSettings& settings) {
+SlopeEstimate resampled(const std::vector<Effect>& effects, bool robust, const BootstrapSettings& settings) {
     const auto statistic = [&](std::span<const size_t> indices) {
         std::vector<Effect> drawn;
         for (const size_t i : indices) drawn.push_back(effects[i]);
@@ -91,7 +93,7 @@ Estimate resampled(const std::vector<Effect>& effects, bool robust, const Bootst
                               replicates_text(settings));
 }
 
-Estimate linear(const std::vector<ObserverSlope>& observers) {
+SlopeEstimate linear(const std::vector<ObserverSlope>& observers) {
     std::vector<double> slopes;
     for (const ObserverSlope& o : observers) slopes.push_back(o.linear_slope);
     const MeanEstimate mean = mean_with_interval(slopes);
@@ -134,7 +136,7 @@ double mean_ln_slope(const std::vector<ObserverSlope>& observers, bool robust) {
     return mean_of(effects_of(observers), robust);
 }
 
-Estimate slope_estimate(SlopeMethod method, const SlopeData& data, const BootstrapSettings& settings) {
+SlopeEstimate slope_estimate(SlopeMethod method, const SlopeData& data, const BootstrapSettings& settings) {
     assert(data.observers.size() >= 2);
     assert(!data.robust || has_robust_form(method));
     const std::vector<Effect> effects = effects_of(data.observers);

@@ -53,7 +53,7 @@ struct SlopeData {
 };
 
 /// At least two observers (asserted); the interval holds the value.
-Estimate slope_estimate(SlopeMethod method, const SlopeData& data, const BootstrapSettings& settings);
+SlopeEstimate slope_estimate(SlopeMethod method, const SlopeData& data, const BootstrapSettings& settings);
 
 /// ln c without an interval, from any number of observers: the REML mean, or Huber's.
 double mean_ln_slope(const std::vector<ObserverSlope>& observers, bool robust);

@@ -44,7 +44,7 @@ struct ConditionLaw {
     int trials = 0;
 
     /// The slope by every method that was asked for, the one above among them.
-    std::vector<Estimate> estimates{};
+    std::vector<SlopeEstimate> estimates{};
     std::vector<ObserverSlope> observer_slopes{};
     std::vector<LeftOut> without_observer{};
     /// Empty where there is one size alone.

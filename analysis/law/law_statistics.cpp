@@ -15,7 +15,7 @@ ordered_json pair_of(const Interval& interval) {
 
 }  // namespace
 
-ordered_json to_json(const Estimate& estimate) {
+ordered_json to_json(const SlopeEstimate& estimate) {
     return {{"name", estimate.name},
             {"slope", estimate.value},
             {"slope_ci95", pair_of(estimate.ci95)},

@@ -16,7 +16,7 @@ namespace stairstep {
 /// A 95 % interval, low to high.
 using Interval = std::pair<double, double>;
 
-struct Estimate {
+struct SlopeEstimate {
     /// Short, as on the command line: "knapp-hartung".
     std::string name;
     double value = 0;
@@ -89,7 +89,7 @@ struct CriterionLaw {
     double texels_in_all = 1;
 };
 
-nlohmann::ordered_json to_json(const Estimate& estimate);
+nlohmann::ordered_json to_json(const SlopeEstimate& estimate);
 nlohmann::ordered_json to_json(const ObserverSlope& slope);
 /// `key` names what was left out: "observer" or "texel_px".
 nlohmann::ordered_json to_json(const LeftOut& left_out, const std::string& key);
