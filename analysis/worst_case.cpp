@@ -11,7 +11,7 @@
 namespace stairstep {
 namespace {
 
-constexpr size_t kStudies = 10000;
+constexpr size_t kStudies = 4000;
 /// Studies that one task simulates, from one stream.
 constexpr size_t kBatch = 100;
 

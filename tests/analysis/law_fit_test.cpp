@@ -294,9 +294,9 @@ TEST(FitLaw, FollowsTheUnitOfLength) {
 }
 
 TEST(FitLaw, CoversSlopeInterceptExponentAndWorstCase) {
-    // 200 studies of ten observers and four conditions: 800 intervals each, an observer's effects shared among a study's four.
+    // 50 studies of ten observers and four conditions: 200 intervals each (of 800: .946, .951, .946, worst case .965), an observer's effects shared among a study's four.
     int slope = 0, intercept = 0, exponent = 0, worst = 0;
-    constexpr int kPlanted = 200;
+    constexpr int kPlanted = 50;
     const PlantedStudy study;
     for (int i = 0; i < kPlanted; ++i) {
         const Law law = fit_law_to_thresholds(study.thresholds(Random(40).stream(static_cast<uint64_t>(i))), 0.82,
@@ -315,10 +315,10 @@ TEST(FitLaw, CoversSlopeInterceptExponentAndWorstCase) {
     std::printf("of %d studies: slope %.3f, intercept %.3f, exponent %.3f, worst case %.3f\n", kPlanted,
                 slope / (4.0 * kPlanted), intercept / (4.0 * kPlanted), exponent / (4.0 * kPlanted),
                 worst / double(kPlanted));
-    EXPECT_GE(slope, 0.92 * 4 * kPlanted);
-    EXPECT_GE(intercept, 0.92 * 4 * kPlanted);
-    EXPECT_GE(exponent, 0.92 * 4 * kPlanted);
-    EXPECT_GE(worst, 0.93 * kPlanted);
+    EXPECT_GE(slope, 0.89 * 4 * kPlanted);
+    EXPECT_GE(intercept, 0.89 * 4 * kPlanted);
+    EXPECT_GE(exponent, 0.89 * 4 * kPlanted);
+    EXPECT_GE(worst, 0.88 * kPlanted);
 }
 
 TEST(FitCriteria, AskForMoreTexelsWhereLessMayBeSeen) {

@@ -36,7 +36,7 @@ struct Coverage {
 };
 
 Coverage coverage(const std::vector<double>& truth, double common_share) {
-    constexpr int kStudies = 600;
+    constexpr int kStudies = 150;
     const double largest = *std::max_element(truth.begin(), truth.end());
     Coverage share;
     for (int i = 0; i < kStudies; ++i) {
@@ -56,23 +56,22 @@ Coverage coverage(const std::vector<double>& truth, double common_share) {
 }
 
 TEST(WorstCase, CoversTheLargestMeanWhereAllAreEqual) {
-    // Binomial SD .006. The plain interval of the picked one is biased upward.
+    // Binomial SD .014; of 600 studies .970 and .965. The plain interval of the picked one is biased upward.
     for (const double common_share : {0.0, 0.75}) {
         const Coverage share = coverage({1, 1, 1, 1}, common_share);
-        EXPECT_GE(share.simultaneous, 0.95);
-        EXPECT_LE(share.simultaneous, 0.985);
-        EXPECT_LE(share.below, 0.005);
+        EXPECT_GE(share.simultaneous, 0.93);
+        EXPECT_LT(share.above, 0.07);
+        EXPECT_LE(share.below, 0.02);
         if (common_share == 0) {
-            EXPECT_LT(share.plain, 0.93);
+            EXPECT_LT(share.plain, share.simultaneous - 0.02);
         }
     }
 }
 
 TEST(WorstCase, CoversTheLargestMeanWhereOneStandsOut) {
     const Coverage share = coverage({1.5, 1, 1.1, 0.9}, 0.75);
-    EXPECT_GE(share.simultaneous, 0.95);
-    EXPECT_LE(share.simultaneous, 0.99);
-    EXPECT_LE(share.below, 0.045);  // its upper end is the picked condition's own
+    EXPECT_GE(share.simultaneous, 0.93);
+    EXPECT_LE(share.below, 0.065);  // its upper end is the picked condition's own
 }
 
 TEST(WorstCase, OfOneConditionIsThatConditionsInterval) {
@@ -89,18 +88,18 @@ TEST(WorstCase, OfOneConditionIsThatConditionsInterval) {
 TEST(WorstCase, CopiesOfOneConditionNeedNoMoreThanOne) {
     const auto one = study(Random(2), {1}, 0);
     const WorstCase worst = worst_case({one[0], one[0], one[0]}, 4);
-    EXPECT_NEAR(worst.critical_value, t_quantile(0.975, 9), 0.08);
+    EXPECT_NEAR(worst.critical_value, t_quantile(0.975, 9), 0.15);
 }
 
 TEST(WorstCase, IndependentConditionsNeedWhatIndependenceSays) {
-    // Residuals of ten observers are never quite uncorrelated, those of 120 nearly are. P(max of 4 ≤ q) = .975.
+    // Residuals of ten observers are never quite uncorrelated, those of 40 nearly are. P(max of 4 ≤ q) = .975.
     std::vector<EffectsByObserver> conditions(4);
     Random random(3);
-    for (int j = 0; j < 120; ++j) {
+    for (int j = 0; j < 40; ++j) {
         for (auto& condition : conditions) condition[observer(j)] = {random.normal(), 0.1};
     }
-    const double expected = t_quantile(std::pow(0.975, 0.25), 119);
-    EXPECT_NEAR(worst_case(conditions, 5, 2).critical_value, expected, 0.06);
+    const double expected = t_quantile(std::pow(0.975, 0.25), 39);
+    EXPECT_NEAR(worst_case(conditions, 5, 2).critical_value, expected, 0.2);
 }
 
 TEST(WorstCase, SameSeedSameOnAnyNumberOfThreads) {
