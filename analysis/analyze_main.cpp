@@ -4,6 +4,7 @@
 #include <set>
 
 #include "analysis/law_fit.h"
+#include "analysis/law_table.h"
 #include "analysis/report.h"
 #include "stimuli/error.h"
 #include "stimuli/io/output_file.h"
@@ -49,40 +50,41 @@ StudyData read_study(const std::string& path) {
     return study;
 }
 
-std::string interval_text(const Interval& interval) {
-    return "[" + format_fixed(interval.first, 2) + ", " + format_fixed(interval.second, 2) + "]";
-}
-
-void print_law(const Law& law) {
-    for (const ConditionLaw& c : law.conditions) {
-        std::cout << "  " << name(c.pattern) << ", contrast " << format_number(c.contrast) << ", " << name(c.kernel)
-                  << ": c = " << format_fixed(c.slope, 3) << " " << interval_text(c.slope_ci95) << ", intercept "
-                  << format_fixed(c.intercept_px, 2) << " px " << interval_text(c.intercept_ci95) << ", exponent "
-                  << format_fixed(c.exponent, 2) << " " << interval_text(c.exponent_ci95) << ", " << c.observers
-                  << " observers, " << c.trials << " trials\n";
-    }
-    std::cout << "law: r = " << format_fixed(law.slope, 3) << " a, 95 % interval " << interval_text(law.slope_ci95)
-              << " (worst case: " << name(law.pattern) << ", contrast " << format_number(law.contrast) << ")\n";
-}
-
 void print_warnings(const LawFit& fit) {
     for (const std::string& warning : fit.warnings) std::cerr << "warning: " << warning << "\n";
 }
 
-void fit_to_file(const std::string& trials_path, double p_threshold, const std::string& out, bool as_json) {
+/// "0.75,0.82": criteria, the first of which is the law's.
+std::vector<double> probabilities_of(const std::string& text) {
+    const std::vector<double> p_thresholds = parse_number_list(text, "--p");
+    if (p_thresholds.empty() || p_thresholds.size() > 20)
+        throw InputError("--p", "lists no or too many shares", "use 0.82");
+    for (const double p : p_thresholds) {
+        if (!(p >= 0.55 && p <= 0.9)) {
+            throw InputError("--p", format_number(p) + " is out of range", "use shares of 0.55 to 0.9");
+        }
+    }
+    return p_thresholds;
+}
+
+void fit_to_file(const std::string& trials_path, const std::string& criteria, const LawFitOptions& options,
+                 const std::string& out, bool as_json) {
+    const std::vector<double> p_thresholds = probabilities_of(criteria);
     const StudyData study = read_study(trials_path);
-    const LawFit fit = fit_law(study.trials, p_threshold, study.source);
+    LawFit fit = fit_law(study.trials, p_thresholds.front(), study.source, options);
+    if (p_thresholds.size() > 1) fit.law.criteria = fit_criteria(study.trials, p_thresholds, study.source, options);
     print_warnings(fit);
     write_law(out, fit.law);
     if (as_json) {
         std::cout << read_file(out);
     } else {
-        print_law(fit.law);
-        std::cout << "wrote " << out << "\n";
+        std::cout << law_table(fit.law) << "wrote " << out << "\n";
     }
 }
 
-void write_report(const std::string& trials_path, double p_threshold, ReportInputs inputs, const std::string& folder) {
+void write_report(const std::string& trials_path, const std::string& criterion, ReportInputs inputs,
+                  const std::string& folder) {
+    const double p_threshold = probabilities_of(criterion).front();
     const StudyData study = read_study(trials_path);
     const LawFit fit = fit_law(study.trials, p_threshold, study.source);
     inputs.observer_kind = study.observer_kind;
@@ -103,20 +105,42 @@ int main(int argc, char** argv) {
 
     std::string trials;
     std::string out;
-    double p_threshold = kDefaultProbability;
+    std::string p_thresholds = format_number(kDefaultProbability);
+    LawFitOptions options{.bootstrap = {.replicates = 2000, .jobs = 0}};
+    std::string method(name(options.method));
     bool as_json = false;
     const auto add_common = [&](CLI::App* command) {
         command->add_option("trials", trials, "trials.csv or study.sqlite")->required();
-        command->add_option("--p", p_threshold, "share of right answers that defines a threshold")
-            ->check(CLI::Range(0.55, 0.9))
+        command
+            ->add_option(
+                "--p", p_thresholds,
+                "share of right answers that defines a threshold, 0.55 to 0.9; fit takes a list and compares its laws, "
+                "the first of which it writes")
             ->capture_default_str();
     };
 
     auto* fit_command = app.add_subcommand("fit", "Fit thresholds and the law, write law.json.");
     add_common(fit_command);
     fit_command->add_option("--out", out, "the law file")->required();
-    fit_command->add_flag("--json", as_json, "print the law as JSON");
-    fit_command->callback([&] { fit_to_file(trials, p_threshold, out, as_json); });
+    fit_command->add_flag("--json", as_json, "print the law file, which has every estimate");
+    std::vector<std::string> methods;
+    for (const SlopeMethod m : kSlopeMethods) methods.emplace_back(name(m));
+    fit_command->add_option("--method", method, "how the law's slope and interval are made")
+        ->check(CLI::IsMember(methods))
+        ->capture_default_str();
+    fit_command->add_flag("--robust", options.robust, "let wild thresholds and observers count less (Huber)");
+    fit_command->add_option("--bootstrap", options.bootstrap.replicates, "number of replicates, 0 for none")
+        ->check(CLI::Range(0, 1000000))
+        ->capture_default_str();
+    fit_command->add_option("--seed", options.bootstrap.seed, "of replicates and of the worst case's interval")
+        ->capture_default_str();
+    fit_command->add_option("--jobs", options.bootstrap.jobs, "threads, 0 for one a core; results don't depend on it")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    fit_command->callback([&] {
+        options.method = *slope_method_named(method);
+        fit_to_file(trials, p_thresholds, options, out, as_json);
+    });
 
     ReportInputs inputs;
     auto* report_command = app.add_subcommand("report", "Write one self-contained report.html.");
@@ -124,7 +148,7 @@ int main(int argc, char** argv) {
     report_command->add_option("--out", out, "folder for report.html")->required();
     report_command->add_option("--contact-sheet", inputs.contact_sheet, "PNG to show, from stairstep-stimuli");
     report_command->add_option("--renderings", inputs.render_stats, "stats.json to show, from stairstep-render");
-    report_command->callback([&] { write_report(trials, p_threshold, inputs, out); });
+    report_command->callback([&] { write_report(trials, p_thresholds, inputs, out); });
 
     return run_program(app, argc, argv);
 }

@@ -1,42 +1,53 @@
-// The law per condition, with the observer as the unit.
+// From trials to the law per condition, with the observer as the unit.
 //
-// For each observer j Ceres fits r = c_j·a to the thresholds r_ij at texel sizes a_i, in logarithms, each weighted by
-// its own uncertainty: residual (ln c_j·a_i − ln r_ij)/s_ij. The condition's slope is the mean of ln c_j over observers,
-// its interval mean ± t_{n−1}·sd/√n: observers differ far more than trials do, and pooling all points, or Ceres'
-// covariance of a pooled fit, gives intervals that cover 62–84 % instead of 95 %.
-// The same is done with an intercept, r = b_j + c_j·a, and with an exponent, r = c_j·a^{p_j}: is the law a line
-// through the origin at all?
+// Thresholds (threshold_fit.h) → each observer's ln c_j and its standard error (observer_fit.h) → the condition's slope over observers
+// (slope_estimate.h: random effects, REML, Knapp-Hartung t unless asked otherwise) → the worst case over conditions (worst_case.h).
+// Observers differ far more than trials do: pooling all points, or Ceres' covariance of a pooled fit, gives intervals that cover
+// 62–84 % instead of 95 %. Intercept and exponent, r = b_j + c_j·a and r = c_j·a^{p_j}, are random-effects means over observers
+// likewise: is the law a line through the origin at all?
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "analysis/law/law.h"
+#include "analysis/bootstrap.h"
 #include "analysis/law/law_file.h"
+#include "analysis/observer_fit.h"
+#include "analysis/slope_estimate.h"
 #include "analysis/threshold_fit.h"
 
 namespace stairstep {
+
+struct LawFitOptions {
+    /// What the law's slope and interval are. ConditionLaw::estimates has the others beside it.
+    SlopeMethod method = SlopeMethod::knapp_hartung;
+    /// Huber's loss for thresholds within an observer, and Huber's mean over observers; goes with knapp-hartung and bca alone.
+    bool robust = false;
+    /// With no replicates, `estimates` holds only what needs none.
+    BootstrapSettings bootstrap{.replicates = 0};
+};
 
 /// What stands between the trials and the law.
 struct LawFit {
     std::vector<Threshold> thresholds;
     Law law;
-    /// What the user should know: tracks left out, conditions that could not be fitted.
+    /// What the user should know: tracks left out, conditions that could not be fitted, what a robust fit trusts less.
     std::vector<std::string> warnings;
 };
 
 /// Fits thresholds at p_threshold, then the law. `source` goes into Law::source.
-/// Throws FailureError where no condition has two observers with bounded thresholds at two texel sizes each.
-LawFit fit_law(const std::vector<Trial>& trials, double p_threshold, const std::string& source);
+/// Throws FailureError, saying what is missing, where no condition has two observers with bounded thresholds, and InputError for a
+/// method that needs replicates without any, or that has no robust form where that is asked for.
+LawFit fit_law(const std::vector<Trial>& trials, double p_threshold, const std::string& source,
+               const LawFitOptions& options = {});
 
-/// One observer's parameters: slope alone; with an intercept; with an exponent. nullopt where Ceres doesn't converge.
-/// The thresholds are one observer's in one pattern × contrast × kernel, at two or more texel sizes.
-struct ObserverLaw {
-    LawParameters<double> through_origin;
-    LawParameters<double> with_intercept;
-    LawParameters<double> with_exponent;
-};
-std::optional<ObserverLaw> fit_observer(const std::vector<Threshold>& thresholds);
+/// The same from thresholds, all at p_threshold: what simulations of studies need. Law::trials is the sum over thresholds.
+LawFit fit_law_to_thresholds(std::vector<Threshold> thresholds, double p_threshold, const std::string& source,
+                             const LawFitOptions& options = {});
+
+/// The laws at several criteria beside each other, for Law::criteria: each p's worst case, and texels relative to p = .82, which is
+/// fitted too where it isn't among them. Throws as `fit_law`.
+std::vector<CriterionLaw> fit_criteria(const std::vector<Trial>& trials, const std::vector<double>& p_thresholds,
+                                       const std::string& source, const LawFitOptions& options = {});
 
 }  // namespace stairstep

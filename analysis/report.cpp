@@ -93,10 +93,10 @@ std::string law_rows(const Law& law) {
     for (const ConditionLaw& c : law.conditions) {
         rows += "<tr><td>" + describe(c.pattern, c.contrast) + "</td><td>" + format_fixed(c.slope, 2) + "</td><td>" +
                 format_fixed(c.slope_ci95.first, 2) + " to " + format_fixed(c.slope_ci95.second, 2) + "</td><td>" +
-                format_fixed(c.between_observer_sd_ln, 2) + "</td><td>" + format_fixed(c.intercept_px, 1) + " " +
-                in_brackets(c.intercept_ci95, 1) + "</td><td>" + format_fixed(c.exponent, 2) + " " +
-                in_brackets(c.exponent_ci95, 2) + "</td><td>" + std::to_string(c.observers) + "</td><td>" +
-                std::to_string(c.trials) + "</td></tr>\n";
+                format_fixed(c.between_observer_sd_ln, 2) + "</td><td>" +
+                (c.has_form ? format_fixed(c.intercept_px, 1) + " " + in_brackets(c.intercept_ci95, 1) : "–") +
+                "</td><td>" + (c.has_form ? format_fixed(c.exponent, 2) + " " + in_brackets(c.exponent_ci95, 2) : "–") +
+                "</td><td>" + std::to_string(c.observers) + "</td><td>" + std::to_string(c.trials) + "</td></tr>\n";
     }
     return rows;
 }

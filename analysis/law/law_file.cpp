@@ -1,5 +1,7 @@
 #include "analysis/law/law_file.h"
 
+#include <cmath>
+
 #include "embedded/law.h"
 #include "stimuli/error.h"
 #include "stimuli/io/json_file.h"
@@ -69,10 +71,13 @@ ConditionLaw condition_from(const json& object, const std::string& source) {
     if (!object.is_object()) reject(source, "is no object", "fit the law again");
     ConditionLaw law;
     read_slope(law, object, source);
-    law.intercept_px = json_number(object, "intercept_px", source);
-    law.intercept_ci95 = json_range(object, "intercept_ci95", source);
-    law.exponent = json_number(object, "exponent", source);
-    law.exponent_ci95 = json_range(object, "exponent_ci95", source);
+    law.has_form = object.contains("intercept_px") || object.contains("exponent");
+    if (law.has_form) {
+        law.intercept_px = json_number(object, "intercept_px", source);
+        law.intercept_ci95 = json_range(object, "intercept_ci95", source);
+        law.exponent = json_number(object, "exponent", source);
+        law.exponent_ci95 = json_range(object, "exponent_ci95", source);
+    }
     if (object.contains("between_observer_sd_ln")) {
         law.between_observer_sd_ln = json_number(object, "between_observer_sd_ln", source);
     }
@@ -106,19 +111,50 @@ json pair_of(const Interval& interval) {
     return json::array({interval.first, interval.second});
 }
 
+ordered_json to_json(const ConditionLaw& law);
+
+template <typename T, typename... Args>
+ordered_json list_of(const std::vector<T>& values, const Args&... args) {
+    ordered_json list = ordered_json::array();
+    for (const T& value : values) list.push_back(to_json(value, args...));
+    return list;
+}
+
 ordered_json to_json(const ConditionLaw& law) {
-    return {{"pattern", name(law.pattern)},
-            {"contrast", law.contrast},
-            {"kernel", name(law.kernel)},
-            {"slope", law.slope},
-            {"slope_ci95", pair_of(law.slope_ci95)},
-            {"intercept_px", law.intercept_px},
-            {"intercept_ci95", pair_of(law.intercept_ci95)},
-            {"exponent", law.exponent},
-            {"exponent_ci95", pair_of(law.exponent_ci95)},
-            {"between_observer_sd_ln", law.between_observer_sd_ln},
-            {"observers", law.observers},
-            {"trials", law.trials}};
+    ordered_json json{{"pattern", name(law.pattern)},
+                      {"contrast", law.contrast},
+                      {"kernel", name(law.kernel)},
+                      {"slope", law.slope},
+                      {"slope_ci95", pair_of(law.slope_ci95)},
+                      {"slope_method", law.slope_method}};
+    if (law.has_form) {
+        json["intercept_px"] = law.intercept_px;
+        json["intercept_ci95"] = pair_of(law.intercept_ci95);
+        json["exponent"] = law.exponent;
+        json["exponent_ci95"] = pair_of(law.exponent_ci95);
+    }
+    json["form_method"] = law.form_method;
+    json["between_observer_sd_ln"] = law.between_observer_sd_ln;
+    json["tau_ln"] = law.tau_ln;
+    json["observers"] = law.observers;
+    json["trials"] = law.trials;
+    json["estimates"] = list_of(law.estimates);
+    json["observer_slopes"] = list_of(law.observer_slopes);
+    json["leave_one_observer_out"] = list_of(law.without_observer, std::string("observer"));
+    json["leave_one_size_out"] = list_of(law.without_size, std::string("texel_px"));
+    json["down_weighted"] = list_of(law.down_weighted);
+    return json;
+}
+
+/// JSON has no NaN and no infinity; written anyway they would turn into null without a word.
+void require_finite(const ordered_json& value, const std::string& key, const std::string& source) {
+    if (value.is_number_float() && !std::isfinite(value.get<double>())) {
+        throw FailureError(source, "\"" + key + "\" is no finite number", "look for thresholds that are out of range");
+    }
+    if (!value.is_structured()) return;
+    for (const auto& [inner, part] : value.items()) {
+        require_finite(part, value.is_array() ? key + "[" + inner + "]" : inner, source);
+    }
 }
 
 }  // namespace
@@ -136,9 +172,7 @@ Law law_named(const std::string& path_or_name) {
 }
 
 void write_law(const std::filesystem::path& path, const Law& law) {
-    ordered_json conditions = ordered_json::array();
-    for (const ConditionLaw& condition : law.conditions) conditions.push_back(to_json(condition));
-    write_json(path, {{"format", kFormat},
+    ordered_json file{{"format", kFormat},
                       {"kernel", name(law.kernel)},
                       {"slope", law.slope},
                       {"slope_ci95", pair_of(law.slope_ci95)},
@@ -149,7 +183,12 @@ void write_law(const std::filesystem::path& path, const Law& law) {
                       {"observers", law.observers},
                       {"trials", law.trials},
                       {"source", law.source},
-                      {"conditions", conditions}});
+                      {"conditions", list_of(law.conditions)}};
+    if (!law.slope_method.empty()) file["slope_method"] = law.slope_method;
+    if (!law.comparisons.empty()) file["comparisons"] = list_of(law.comparisons);
+    if (!law.criteria.empty()) file["criteria"] = list_of(law.criteria);
+    require_finite(file, "law", path.string());
+    write_json(path, file);
 }
 
 double slope_for_kernel(const Law& law, KernelShape kernel) {

@@ -53,6 +53,37 @@ TEST(LawFile, ReadsBackWhatItWrote) {
     EXPECT_EQ(law.conditions[0].intercept_px, -0.5);
 }
 
+TEST(LawFile, WritesNoNumberThatIsNone) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "law.json";
+    for (const double bad : {std::nan(""), static_cast<double>(INFINITY)}) {
+        Law law = some_law();
+        law.conditions[0].exponent_ci95.second = bad;
+        EXPECT_THROW(write_law(path, law), FailureError);
+        law = some_law();
+        law.conditions[0].estimates = {{"profile", 1, {1, bad}, "words"}};
+        EXPECT_THROW(write_law(path, law), FailureError);
+        law = some_law();
+        law.criteria = {{0.75, bad, {1, 2}, {}, 1, 1}};
+        EXPECT_THROW(write_law(path, law), FailureError);
+    }
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(LawFile, LeavesOutAFormThatWasNotEstimated) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "law.json";
+    Law law = some_law();
+    law.conditions[0].has_form = false;
+    law.conditions[0].form_method = "not estimated: one size";
+    write_law(path, law);
+    const auto json = nlohmann::json::parse(read_file(path));
+    EXPECT_FALSE(json["conditions"][0].contains("intercept_px"));
+    EXPECT_FALSE(json["conditions"][0].contains("exponent_ci95"));
+    EXPECT_EQ(json["conditions"][0]["form_method"], "not estimated: one size");
+    EXPECT_FALSE(read_law(path).conditions[0].has_form);
+}
+
 TEST(LawFile, ShipsKreuzers) {
     const Law law = law_named("kreuzer2017");
     EXPECT_EQ(law.slope, 3.47);
