@@ -252,19 +252,28 @@ Sum sum_over(const std::vector<PooledTrials>& trials, size_t stride, const Windo
 
     const double grain = window.grain();
     const auto location = [&](size_t i) { return window.location.low + grain * static_cast<double>(i); };
+    const Interval shown{range.low + settings.margin, range.high - settings.margin};
+    const auto log_prior_of = [&](double t) {
+        const double beyond = std::max({0.0, shown.low - t, t - shown.high}) / settings.beyond_sd;
+        return -beyond * beyond / 2;
+    };
     double largest = -INFINITY;
     for (size_t r = 0; r < rows.size(); ++r) {
         for (size_t i = 0; i < points; ++i) {
             double& value = log_posterior[r * points + i];
             const double t = location(i) + rows[r].offset;
-            value = t < range.low || t > range.high ? -INFINITY : value + rows[r].log_weight;
+            if (t < range.low || t > range.high) {
+                value = -INFINITY;
+                continue;
+            }
+            value += rows[r].log_weight + log_prior_of(t);
             largest = std::max(largest, value);
         }
     }
 
     // Moments about the window's middle, so that no digits are lost far from 0.
     const double middle = (window.location.low + window.location.high) / 2;
-    double mass = 0, t1 = 0, t2 = 0, l1 = 0, l2 = 0, b1 = 0, b2 = 0, d1 = 0, d2 = 0, e1 = 0, inner = 0;
+    double mass = 0, flat_mass = 0, t1 = 0, t2 = 0, l1 = 0, l2 = 0, b1 = 0, b2 = 0, d1 = 0, d2 = 0, e1 = 0, inner = 0;
     Sum sum;
     for (size_t r = 0; r < rows.size(); ++r) {
         double m = 0, s1 = 0, s2 = 0;
@@ -277,8 +286,10 @@ Sum sum_over(const std::vector<PooledTrials>& trials, size_t stride, const Windo
             m += p;
             s1 += p * l;
             s2 += p * l * l;
-            if (t < range.low + kEnd) sum.posterior.low_end_share += p;
-            if (t > range.high - kEnd) sum.posterior.high_end_share += p;
+            const double flat = t < shown.low || t > shown.high ? p * std::exp(-log_prior_of(t)) : p;
+            flat_mass += flat;
+            if (t < range.low + kEnd) sum.posterior.low_end_share += flat;
+            if (t > range.high - kEnd) sum.posterior.high_end_share += flat;
             if (i == 0) sum.at_low_edge += p;
             if (i + 1 == points) sum.at_high_edge += p;
         }
@@ -298,8 +309,8 @@ Sum sum_over(const std::vector<PooledTrials>& trials, size_t stride, const Windo
     }
     sum.posterior.mean = middle + t1 / mass;
     sum.posterior.sd = sd_of(mass, t1, t2);
-    sum.posterior.low_end_share /= mass;
-    sum.posterior.high_end_share /= mass;
+    sum.posterior.low_end_share /= flat_mass;
+    sum.posterior.high_end_share /= flat_mass;
     sum.posterior.overdispersion = e1 / mass;
     sum.inner_sd = std::sqrt(std::max(0.0, inner / mass));
     sum.location_mean = middle + l1 / mass;

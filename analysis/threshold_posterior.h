@@ -1,6 +1,6 @@
 // The posterior of a threshold T, steepness and lapses summed out: what fit_threshold rests on.
 //
-//   p(T | trials) ∝ ∫∫ Π_k Ψ_k(x_k; T, β, δ) · p(β) p(δ) dβ dδ,   T uniform over what the trials could tell
+//   p(T | trials) ∝ ∫∫ Π_k Ψ_k(x_k; T, β, δ) · p(β) p(δ) dβ dδ · p(T)
 //
 // Ψ as in study/psychometric.h with γ = ½. ln β is summed by the trapezoid rule, δ by Gauss's, T on an even grid of
 // locations L = T − ε(β, δ), on which e^{−u} is the same table for all δ. Where the posterior turns out to be narrower than
@@ -28,11 +28,16 @@ struct PooledTrials {
 std::vector<PooledTrials> pool(std::vector<PooledTrials> trials);
 
 /// What is known of an observer beforehand: ln β is normal, δ exponential, cut off at largest_lapse.
+///
+/// 95 % of observers have β from 1.2 to 7.2: from half the steepness that detection has (3.5, Watson & Pelli 1983) in tasks of
+/// that kind to twice it. δ is small in observers who attend: one answer in 65 given blindly, half of those wrong. Where more
+/// lapses are allowed for, every track of right answers with a few wrong ones may be an inattentive observer's who sees all: a long
+/// tail of low thresholds that makes SDs half as large again and intervals no truer.
 struct ShapePrior {
-    double median_beta = 3.5;
-    double ln_beta_sd = 0.4;
-    double mean_lapse = 0.03;
-    double largest_lapse = 0.12;
+    double median_beta = 3;
+    double ln_beta_sd = 0.45;
+    double mean_lapse = 0.015;
+    double largest_lapse = 0.08;
 };
 
 struct ThresholdPosterior {
@@ -40,7 +45,8 @@ struct ThresholdPosterior {
     double sd = 0;
     /// Quantiles .025 and .975.
     std::pair<double, double> ci95;
-    /// Share of the mass within 0.1 of either end of T's prior range: none to speak of where the trials bound T.
+    /// Share of the mass within 0.1 of either end of T's range if T's prior were flat up to the margins: none to speak of
+    /// where the trials bound T.
     double low_end_share = 0;
     double high_end_share = 0;
     /// Posterior mean of overdispersion; 0 where none was asked for.
@@ -51,7 +57,9 @@ struct PosteriorSettings {
     /// In (0.55, 0.9).
     double p_threshold = 0.82;
     ShapePrior prior;
-    /// How far beyond the strengths shown T may lie, log10 units.
+    /// T is as likely anywhere among the strengths shown; beyond them its prior falls off as a normal density with this SD,
+    /// and is cut off at the margin, log10 units. (As in psignifit 4: who chose the strengths looked for T there.)
+    double beyond_sd = 0.2;
     double margin = 0.8;
     /// Whether answers at the same strength may go together: see overdispersion.h.
     bool overdispersed = false;
