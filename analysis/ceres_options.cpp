@@ -1,6 +1,7 @@
 #include "analysis/ceres_options.h"
 
 #include <cmath>
+#include <utility>
 
 namespace stairstep {
 
@@ -15,7 +16,8 @@ std::vector<double> standard_errors(ceres::Problem& problem, const double* param
     options.min_reciprocal_condition_number = 0;
     ceres::Covariance covariance(options);
     std::vector<double> matrix(static_cast<size_t>(n) * n);
-    if (!covariance.Compute({{parameters, parameters}}, &problem) ||
+    const std::vector<std::pair<const double*, const double*>> blocks{{parameters, parameters}};
+    if (!covariance.Compute(blocks, &problem) ||
         !covariance.GetCovarianceBlock(parameters, parameters, matrix.data())) {
         return {};
     }
