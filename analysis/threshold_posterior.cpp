@@ -17,6 +17,9 @@ constexpr double kGamma = 0.5;
 /// Spacing of T's grid to begin with, log10 units, and the most points it may have.
 constexpr double kGrain = 0.02;
 constexpr double kMostPoints = 600;
+/// The same for strengths over more than a dozen decades.
+constexpr double kWideGrain = 0.06;
+constexpr double kMostWidePoints = 20000;
 /// ln β goes this many prior SDs to either side.
 constexpr double kBetaReach = 3;
 constexpr size_t kBetas = 11;
@@ -242,10 +245,11 @@ Sum sum_over(const std::vector<PooledTrials>& trials, size_t stride, const Windo
             log_posterior.insert(log_posterior.end(), block.begin(), block.end());
             for (size_t d = 0; d < deltas.size(); ++d) {
                 const PsychometricShape shape{beta, kGamma, deltas[d], settings.p_threshold};
-                rows.push_back({ln_beta, deltas[d], eta, threshold_offset(shape),
-                                -z * z / 2 - deltas[d] / prior.mean_lapse + std::log(delta_rule.weights[d]) +
-                                    (settings.overdispersed ? log_overdispersion_prior(eta) : 0) +
-                                    std::log(eta_rule.weights[h])});
+                const bool is_end = b == 0 || b + 1 == beta_count;
+                rows.push_back(
+                    {ln_beta, deltas[d], eta, threshold_offset(shape),
+                     -z * z / 2 - deltas[d] / prior.mean_lapse + std::log(delta_rule.weights[d] * (is_end ? 0.5 : 1)) +
+                         (settings.overdispersed ? log_overdispersion_prior(eta) : 0) + std::log(eta_rule.weights[h])});
             }
         }
     }
@@ -390,6 +394,13 @@ QuadratureRule gauss_legendre(size_t count, double low, double high) {
     return rule;
 }
 
+std::vector<double> location_log_likelihood(const std::vector<PooledTrials>& pooled, double beta, double delta,
+                                            double first, double last, size_t points) {
+    std::vector<double> log_likelihood(points);
+    add_independent(log_likelihood, pooled, 1, {{first, last}, points, {}, {}}, beta, {delta});
+    return log_likelihood;
+}
+
 ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, const PosteriorSettings& settings) {
     assert(!pooled.empty());
     const ShapePrior& prior = settings.prior;
@@ -411,6 +422,10 @@ ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, 
                2;
     };
     Window window{all_locations, even_points(all_locations.width(), kGrain), all_betas, all_deltas};
+    // Strengths that lie many decades apart: more points, so that no likelihood falls between two of them.
+    if (window.grain() > kWideGrain) {
+        window.points = 2 * static_cast<size_t>(std::min(all_locations.width() / kWideGrain, kMostWidePoints) / 2) + 2;
+    }
 
     size_t stride = std::max<size_t>(1, (pooled.size() + kFirstSample - 1) / kFirstSample);
     for (int pass = 0;; ++pass) {
