@@ -14,6 +14,8 @@ namespace {
 /// In standard errors of the threshold: from when on one step says a trial is worth an exact look, and from when on it is named.
 constexpr double kLookAt = 0.3;
 constexpr double kInfluential = 0.5;
+/// Deviance that an answer may bring along: χ² with one degree of freedom, .999.
+constexpr double kUnlikely = 10.83;
 
 struct Statistics {
     double deviance = 0;
@@ -50,7 +52,9 @@ std::vector<InfluentialTrial> influential_trials(const PsychometricFit& fit, con
     std::map<std::pair<double, bool>, std::optional<Refit>> refits;
     for (size_t i = 0; i < answers.size(); ++i) {
         const Answer01& answer = answers[i];
-        if (std::abs(one_step_threshold_shift(fit, answer)) < kLookAt * *sd) continue;
+        const double psi = fit.probability(answer.strength);
+        const double deviance = -2 * std::log(answer.correct ? psi : 1 - psi);
+        if (std::abs(one_step_threshold_shift(fit, answer)) < kLookAt * *sd && !(deviance > kUnlikely)) continue;
         const auto [place, is_new] = refits.try_emplace({answer.strength, answer.correct});
         if (is_new) {
             std::vector<Level> rest = fit.levels;
@@ -64,9 +68,8 @@ std::vector<InfluentialTrial> influential_trials(const PsychometricFit& fit, con
         }
         if (!place->second) continue;
         const double shift = place->second->parameters.threshold - fit.parameters.threshold;
-        if (std::abs(shift) >= kInfluential * *sd) {
-            found.push_back({i, shift, fit.deviance - place->second->deviance});
-        }
+        const double drop = fit.deviance - place->second->deviance;
+        if (std::abs(shift) >= kInfluential * *sd || drop > kUnlikely) found.push_back({i, shift, drop});
     }
     std::stable_sort(found.begin(), found.end(), [](const InfluentialTrial& a, const InfluentialTrial& b) {
         return std::abs(a.threshold_shift) > std::abs(b.threshold_shift);

@@ -35,7 +35,9 @@ struct GoodnessOfFit {
     SimulatedReference residual_with_order;
     /// Simulations that could be fitted; those where all answers came out alike could not.
     int simulations = 0;
-    /// Trials that move the threshold by more than 0.5 of its standard error, largest first.
+    /// Trials without which the threshold would move by half its standard error or more, or the deviance fall by more than 10.83
+    /// (χ² with one degree of freedom, .999); by how far the threshold moves, largest first. One Newton step says which trials
+    /// are worth a fit without them.
     std::vector<InfluentialTrial> influential;
 };
 

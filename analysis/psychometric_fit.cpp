@@ -137,6 +137,8 @@ Optimum climb(const Model& model, const Vector& start, const std::vector<int>& f
     ceres::GradientProblemSolver::Options options;
     options.line_search_direction_type = ceres::BFGS;
     options.logging_type = ceres::SILENT;
+    // Interpolation logs a complaint where the likelihood is flat, which separable answers make it.
+    options.line_search_interpolation_type = ceres::BISECTION;
     options.function_tolerance = 1e-15;
     options.gradient_tolerance = 1e-9;
     options.parameter_tolerance = 1e-13;
@@ -212,6 +214,23 @@ bool finish(const Model& model, Optimum& optimum) {
         optimum = next;
     }
     return false;
+}
+
+/// Covariance from information; nullopt where the likelihood is flat in some direction, to what differences can tell.
+std::optional<Eigen::MatrixXd> invert(const Model& model, const Eigen::MatrixXd& information,
+                                      const std::vector<int>& free) {
+    constexpr double kFlat = 1e-7;
+    const Eigen::VectorXd diagonal = information.diagonal();
+    for (size_t k = 0; k < free.size(); ++k) {
+        const double width = model.high[free[k]] - model.low[free[k]];
+        if (!(diagonal[static_cast<long>(k)] * width * width > 1e-3)) return std::nullopt;
+    }
+    const Eigen::VectorXd unit = diagonal.cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled = unit.asDiagonal() * information * unit.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+    if (eigen.info() != Eigen::Success || !(eigen.eigenvalues().minCoeff() > kFlat)) return std::nullopt;
+    const Eigen::MatrixXd inverse = scaled.inverse();
+    return Eigen::MatrixXd(unit.asDiagonal() * inverse * unit.asDiagonal());
 }
 
 Optimum best_of_starts(const Model& model) {
@@ -388,16 +407,13 @@ PsychometricFit fit_psychometric(const std::vector<Level>& levels, const Psychom
     }
 
     if (const auto matrix = information(model, best.theta, free); matrix && !free.empty()) {
-        const Eigen::LDLT<Eigen::MatrixXd> factors(*matrix);
-        const Eigen::VectorXd pivots = factors.vectorD();
-        if (factors.info() == Eigen::Success && pivots.minCoeff() > 1e-12 * pivots.maxCoeff()) {
-            const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(matrix->rows(), matrix->cols()));
+        if (const auto inverse = invert(model, *matrix, free)) {
             fit.covariance.emplace();
             fit.covariance->fill(0);
             const auto unit = [&](int i) { return i == 1 ? fit.parameters.slope : 1.0; };  // from ln b to b
             for (size_t j = 0; j < free.size(); ++j) {
                 for (size_t k = 0; k < free.size(); ++k) {
-                    (*fit.covariance)[free[j] * kCount + free[k]] = inverse(j, k) * unit(free[j]) * unit(free[k]);
+                    (*fit.covariance)[free[j] * kCount + free[k]] = (*inverse)(j, k) * unit(free[j]) * unit(free[k]);
                 }
             }
         }
@@ -414,8 +430,8 @@ PsychometricFit fit_psychometric(const std::vector<Level>& levels, const Psychom
             "strengths";
     } else if (fit.at_bound[1]) {
         fit.reason = "the slope is at its lower bound: answers hardly get better with strength";
-    } else if (!fit.converged) {
-        fit.reason = "the likelihood has no clear maximum";
+    } else if (!fit.converged || !fit.covariance) {
+        fit.reason = "no clear maximum: a range of thresholds and slopes explains the answers equally well";
     } else if (!std::isfinite(fit.threshold_ci95.first) || !std::isfinite(fit.threshold_ci95.second)) {
         fit.reason = std::isfinite(fit.threshold_ci95.second)  ? "the threshold is bounded above alone"
                      : std::isfinite(fit.threshold_ci95.first) ? "the threshold is bounded below alone"

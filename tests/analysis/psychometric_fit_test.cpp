@@ -191,9 +191,9 @@ TEST(PsychometricFit, AgreesWithOctavesSimplex) {
     std::vector<PsychometricFit> fits;
     std::ostringstream data;
     data.precision(17);
-    for (int i = 0; i < 9; ++i) {
+    for (int i = 0; i < 6; ++i) {
         const Sigmoid sigmoid = kSigmoids[i % 3];
-        const double p = i < 4 ? 0.75 : 0.82;
+        const double p = i < 3 ? 0.75 : 0.82;
         const PsychometricFit truth = known(sigmoid, p, {-0.4 + 0.1 * i, usual_slope(sigmoid), 0.03, 0.5});
         const auto answers = answers_of(truth, 150 * (1 + i % 4), 40 + i, i % 2 == 0 ? 9 : 60);
         fits.push_back(fit_psychometric(answers, {.sigmoid = sigmoid, .p_threshold = p}));

@@ -37,8 +37,15 @@ while true
   for slope = [2 6]
     for delta = [.01 .06]
       theta = [middle slope delta];
-      for again = 1:3, theta = fminsearch(f, theta, options); end
+      for again = 1:2, theta = fminsearch(f, theta, options); end
       if f(theta) < least, least = f(theta); best = theta; end
+    end
+    % Along the bound, where a simplex gets stuck.
+    for delta = [0 head(4)]
+      g = @(theta) f([theta delta]);
+      theta = [middle slope];
+      for again = 1:2, theta = fminsearch(g, theta, options); end
+      if g(theta) < least, least = g(theta); best = [theta delta]; end
     end
   end
   printf('F %.15g %.15g %.15g %.15g\n', best, -least);

@@ -32,7 +32,7 @@ TEST(SignalDetection, IsFiniteAtRatesOfZeroAndOne) {
     const Sensitivity s = sensitivity({20, 20, 0, 20}, Task::yes_no);
     // Φ⁻¹(20.5/21) = 1.98075…, twice.
     EXPECT_NEAR(phi(s.d_prime / 2), 20.5 / 21, 1e-12);
-    EXPECT_EQ(s.criterion, 0);
+    EXPECT_NEAR(s.criterion, 0, 1e-14);
     EXPECT_TRUE(std::isfinite(s.d_prime_ci95.first) && std::isfinite(s.d_prime_ci95.second));
     EXPECT_NE(sensitivity({3, 10, 0, 0}, Task::yes_no).reason, "");
     EXPECT_NE(sensitivity({0, 0, 1, 4}, Task::two_alternative).reason, "");
