@@ -38,7 +38,7 @@ double Threshold::ln_radius_sd() const {
 }
 
 Threshold fit_threshold(const Track& track, double p_threshold, Answers answers) {
-    assert(!track.trials.empty() && p_threshold > 0.55 && p_threshold < 0.9);
+    assert(!track.trials.empty() && p_threshold >= 0.55 && p_threshold <= 0.9);
     std::vector<PooledTrials> trials;
     trials.reserve(track.trials.size());
     for (const Trial& trial : track.trials) {

@@ -47,7 +47,7 @@ struct Threshold {
 /// Whether answers at the same strength may go together more than independent ones (blocked data alone can tell).
 enum class Answers { independent, overdispersed };
 
-/// p_threshold in (0.55, 0.9): above guessing, below what a lapsing observer reaches. The track must have a trial, and
+/// p_threshold in [0.55, 0.9]: above guessing, below what a lapsing observer reaches. The track must have a trial, and
 /// sizes and radii are positive and finite (all asserted).
 Threshold fit_threshold(const Track& track, double p_threshold, Answers answers = Answers::independent);
 

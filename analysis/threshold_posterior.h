@@ -55,7 +55,7 @@ struct ThresholdPosterior {
 };
 
 struct PosteriorSettings {
-    /// In (0.55, 0.9).
+    /// In [0.55, 0.9].
     double p_threshold = 0.82;
     ShapePrior prior;
     /// T is as likely anywhere among the strengths shown; beyond them its prior falls off as a normal density with this SD,
