@@ -1,13 +1,13 @@
 // Thresholds from raw trials: for each observer and condition, the radius at which answers are right with
 // probability p_T.
 //
-// The posterior of T on a grid over T, steepness β and lapse rate δ, summed over β and δ: an adaptive track says little
-// about them, and a wrong fixed β makes intervals too narrow. γ = ½: lines are shown on half the trials and answers
-// counted as right or wrong. T has a flat prior over what the track could tell, ln β is normal around ln 3.5 with SD 0.4,
-// and δ is exponential with mean 0.03.
+// The posterior of T, summed over steepness β and lapse rate δ: an adaptive track says little about them, and a wrong fixed
+// β makes intervals too narrow. γ = ½: lines are shown on half the trials and answers counted as right or wrong. T has a
+// flat prior over what the track could tell; those of β and δ are threshold_posterior.h's.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "study/trial.h"
@@ -33,6 +33,10 @@ struct Threshold {
     int trials = 0;
     /// Whether the trials bound T on both sides; if not, the estimate says where the prior ends, not where T is.
     bool bounded = true;
+    /// 95 % credible interval of T: its posterior's quantiles .025 and .975.
+    std::pair<double, double> log_threshold_ci95;
+    /// Posterior mean of η, see overdispersion.h; 0 where it was not asked for.
+    double overdispersion = 0;
 
     /// Radius at threshold, px.
     double radius_px() const;
@@ -40,7 +44,11 @@ struct Threshold {
     double ln_radius_sd() const;
 };
 
-/// p_threshold in (0.55, 0.9): above guessing, below what a lapsing observer reaches. The track must have a trial.
-Threshold fit_threshold(const Track& track, double p_threshold);
+/// Whether answers at the same strength may go together more than independent ones (blocked data alone can tell).
+enum class Answers { independent, overdispersed };
+
+/// p_threshold in [0.55, 0.9]: above guessing, below what a lapsing observer reaches. The track must have a trial, and
+/// sizes and radii are positive and finite (all asserted).
+Threshold fit_threshold(const Track& track, double p_threshold, Answers answers = Answers::independent);
 
 }  // namespace stairstep

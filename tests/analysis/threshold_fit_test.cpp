@@ -72,6 +72,31 @@ TEST(ThresholdFit, SaysWhenTrialsDontBoundTheThreshold) {
     EXPECT_TRUE(fit_threshold(constant_stimuli(-0.5, {}, 70, 5), 0.82).bounded);
 }
 
+TEST(ThresholdFit, GivesACredibleInterval) {
+    const Threshold few = fit_threshold(constant_stimuli(-0.5, {}, 28, 6), 0.82);
+    const Threshold many = fit_threshold(constant_stimuli(-0.5, {}, 7000, 6), 0.82);
+    for (const Threshold& t : {few, many}) {
+        EXPECT_LT(t.log_threshold_ci95.first, t.log_threshold);
+        EXPECT_GT(t.log_threshold_ci95.second, t.log_threshold);
+        EXPECT_EQ(t.overdispersion, 0);
+    }
+    // Where trials are many the posterior is normal, and no grid shows: far less than its first spacing of 0.02.
+    EXPECT_LT(many.log_threshold_sd, 0.012);
+    EXPECT_NEAR(many.log_threshold_ci95.second - many.log_threshold_ci95.first, 3.92 * many.log_threshold_sd,
+                0.03 * many.log_threshold_sd);
+    EXPECT_NEAR(many.log_threshold, -0.5, 4 * many.log_threshold_sd);
+}
+
+TEST(ThresholdFit, TakesBlockedAnswersAsOverdispersedWhenAsked) {
+    const Track track = constant_stimuli(-0.5, {}, 350, 8);
+    const Threshold independent = fit_threshold(track, 0.82);
+    const Threshold overdispersed = fit_threshold(track, 0.82, Answers::overdispersed);
+    EXPECT_GT(overdispersed.overdispersion, 0);
+    EXPECT_LT(overdispersed.overdispersion, 0.15);  // these answers are independent
+    EXPECT_GT(overdispersed.log_threshold_sd, independent.log_threshold_sd);
+    EXPECT_NEAR(overdispersed.log_threshold, independent.log_threshold, independent.log_threshold_sd);
+}
+
 TEST(ThresholdFit, GroupsTrialsByObserverAndCondition) {
     std::vector<Trial> trials;
     for (int i = 0; i < 12; ++i) {
