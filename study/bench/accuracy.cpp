@@ -131,14 +131,12 @@ BenchTable measure_accuracy(const AccuracySettings& settings) {
         "bound is the least that n trials allow, 1/sqrt(n I + 1/0.25) with I = 17.789 the largest information of a "
         "trial.",
         "Errors have heavy tails: an early lapse or lucky guesses mislead a whole track, and few of them make up most "
-        "of "
-        "rmse. Run r meets the same observer and the same luck with every method, so that differences between methods "
-        "are "
-        "surer than rmse_se says.",
+        "of rmse. Run r meets the same observer and the same luck with every method, so that differences between "
+        "methods are surer than rmse_se says.",
         "psi-marginal knows neither slope nor lapse rate, and does the first fifth of the runs. Constant stimuli cover "
-        "guess +- "
-        "0.45 and "
-        "staircases start 0.4 above it, wherever T is."};
+        "guess +- 0.45 and staircases start 0.4 above it, wherever T is.",
+        "The bar is what minimum entropy came to in another implementation over 2,000 runs, whose own standard errors "
+        "are at least twice these."};
     return table;
 }
 

@@ -77,8 +77,9 @@ std::string command_line(const BenchOptions& options) {
 }
 
 std::string markdown(const BenchOptions& options, const std::vector<BenchTable>& tables) {
+    const std::filesystem::path out = options.out;
     std::string text = "# What the engines do: figures\n\nMade by\n\n```\n" + command_line(options) + " --out " +
-                       std::filesystem::path(options.out).filename().string() +
+                       (out.is_relative() ? out : out.filename()).string() +
                        "\n```\n\nwith version " STAIRSTEP_VERSION " on a machine of " +
                        std::to_string(std::thread::hardware_concurrency()) +
                        " cores. Errors and coverage are the same again for the same seed, on any machine and with any "
