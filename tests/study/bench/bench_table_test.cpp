@@ -31,10 +31,10 @@ TEST(BenchTable, BarsAreMetOnTheirOwnSideAndUnknownWithoutAFigure) {
 TEST(BenchTable, TextAlignsNumbersToTheRight) {
     EXPECT_EQ(to_text(made_table()),
               "Made up\n\n"
-              "method    rmse  bar     met\n"
-              "a, \"b\"    0.12  <= 0.1  NO\n"
-              "c               >= 3    unknown\n"
-              "d        12.00\n"
+              "method   rmse  bar     met\n"
+              "a, \"b\"   0.12  <= 0.1  NO\n"
+              "c              >= 3    unknown\n"
+              "d       12.00\n"
               "\nA note.\n");
 }
 
