@@ -119,7 +119,7 @@ BenchTable measure_accuracy(const AccuracySettings& settings) {
                           {s.robust_sd, 4},
                           {bound, 4},
                           {s.rmse / bound, 2}}};
-            if (method.name == kMinimumEntropy) row.bar = at_most(s.rmse, kMinimumEntropyRmse.at(trials), 4);
+            if (method.name == kMinimumEntropy) row.bar = at_most(s.rmse, kMinimumEntropyRmse.at(trials), 4, s.rmse_se);
             table.rows.push_back(std::move(row));
         }
         progress.advance();
@@ -150,7 +150,7 @@ BenchTable measure_coverage(const AccuracySettings& settings) {
     const std::vector<Mismatch> all = mismatches();
     Progress progress("measuring coverage, observers", static_cast<long>(methods.size() * all.size()));
     for (BenchMethod& method : methods) {
-        method.every = std::max(method.every, 5);
+        method.every = 20;
         for (const Mismatch& mismatch : all) {
             TrackSimulation simulation = simulation_of(settings, method);
             simulation.observer.beta = mismatch.beta;
@@ -170,7 +170,8 @@ BenchTable measure_coverage(const AccuracySettings& settings) {
                               {s.coverage_se, 3},
                               {s.bias, 4},
                               {s.rmse, 4}}};
-                if (method.name == kPsiMarginal && mismatch.beta >= 2) row.bar = at_least(s.coverage, kCoverageBar, 2);
+                if (method.name == kPsiMarginal && mismatch.beta >= 2)
+                    row.bar = at_least(s.coverage, kCoverageBar, 2, s.coverage_se);
                 table.rows.push_back(std::move(row));
             }
             progress.advance();

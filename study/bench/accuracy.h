@@ -30,8 +30,9 @@ struct BenchMethod {
 std::vector<BenchMethod> bench_methods();
 
 struct AccuracySettings {
-    /// Simulated tracks a method, ≥ 40; slow methods do a part of them, at least 20.
-    int runs = 10000;
+    /// Simulated tracks a method, ≥ 40; psi-marginal does a fifth of them, and coverage takes a
+    /// twentieth an observer, at least 20.
+    int runs = 40000;
     uint64_t seed = 1;
     /// Threads, 0 for one a core.
     int jobs = 0;

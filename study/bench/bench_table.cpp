@@ -11,7 +11,8 @@ namespace {
 
 std::string met_text(const BenchBar& bar) {
     if (!bar.met) return "unknown";
-    return *bar.met ? "yes" : "NO";
+    if (*bar.met) return "yes";
+    return bar.missed_by_se ? "NO, by " + format_fixed(*bar.missed_by_se, 1) + " SE" : "NO";
 }
 
 bool has_bars(const BenchTable& table) {
@@ -65,9 +66,10 @@ std::string wrapped(const std::string& text, const std::string& first, const std
     return lines + line + "\n";
 }
 
-BenchBar limit_bar(const char* relation, double value, double limit, int decimals, bool met) {
+BenchBar limit_bar(const char* relation, double value, double limit, int decimals, double se, bool met) {
     BenchBar bar{relation + format_fixed(limit, decimals), std::nullopt};
     if (std::isfinite(value)) bar.met = met;
+    if (bar.met == false && se > 0) bar.missed_by_se = std::abs(value - limit) / se;
     return bar;
 }
 
@@ -79,12 +81,12 @@ BenchCell::BenchCell(double value, int decimals) {
     number = value;
 }
 
-BenchBar at_most(double value, double limit, int decimals) {
-    return limit_bar("<= ", value, limit, decimals, value <= limit);
+BenchBar at_most(double value, double limit, int decimals, double se) {
+    return limit_bar("<= ", value, limit, decimals, se, value <= limit);
 }
 
-BenchBar at_least(double value, double limit, int decimals) {
-    return limit_bar(">= ", value, limit, decimals, value >= limit);
+BenchBar at_least(double value, double limit, int decimals, double se) {
+    return limit_bar(">= ", value, limit, decimals, se, value >= limit);
 }
 
 std::string to_text(const BenchTable& table) {
@@ -157,6 +159,7 @@ nlohmann::ordered_json to_json(const std::vector<BenchTable>& tables) {
             if (row.bar) {
                 object["bar"] = row.bar->text;
                 object["met"] = row.bar->met ? nlohmann::ordered_json(*row.bar->met) : nlohmann::ordered_json(nullptr);
+                if (row.bar->missed_by_se) object["missed_by_se"] = *row.bar->missed_by_se;
             }
             rows.push_back(std::move(object));
         }

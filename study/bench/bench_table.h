@@ -30,6 +30,8 @@ struct BenchBar {
     std::string text;
     /// Nothing where it could not be measured.
     std::optional<bool> met;
+    /// By how many of the figure's standard errors it is missed, where it is and they are known.
+    std::optional<double> missed_by_se = std::nullopt;
 };
 
 struct BenchRow {
@@ -48,11 +50,12 @@ struct BenchTable {
     std::vector<std::string> notes{};
 };
 
-/// `value` at most, or at least, `limit`; the limit is shown with so many decimals.
-BenchBar at_most(double value, double limit, int decimals);
-BenchBar at_least(double value, double limit, int decimals);
+/// `value` at most, or at least, `limit`; the limit is shown with so many decimals. `se` is the value's standard error, 0
+/// where there is none to speak of.
+BenchBar at_most(double value, double limit, int decimals, double se = 0);
+BenchBar at_least(double value, double limit, int decimals, double se = 0);
 
-/// Aligned columns, numbers to the right; `bar` and `met` (yes, NO, unknown) stand last if any row has a bar.
+/// Aligned columns, numbers to the right; `bar` and `met` (yes; NO, and by how many SE; unknown) stand last if any row has a bar.
 std::string to_text(const BenchTable& table);
 /// A heading of the second level, the table, its notes as a list.
 std::string to_markdown(const BenchTable& table);

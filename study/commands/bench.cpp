@@ -21,7 +21,7 @@ const std::vector<std::string> kParts{"time", "accuracy", "coverage", "gain", "s
 
 struct BenchOptions {
     std::vector<std::string> parts;
-    int runs = 10000;
+    int runs = 40000;
     int observers = 100;
     uint64_t seed = 1;
     int jobs = 0;
@@ -40,7 +40,7 @@ struct BenchOptions {
 
 GainSettings gain_settings(const BenchOptions& options) {
     GainSettings settings;
-    settings.runs = std::max(20, options.runs / 50);
+    settings.runs = std::max(20, options.runs / 200);
     settings.seed = options.seed;
     settings.jobs = options.jobs;
     if (options.quick) {
@@ -78,19 +78,20 @@ std::string command_line(const BenchOptions& options) {
 
 std::string markdown(const BenchOptions& options, const std::vector<BenchTable>& tables) {
     const std::filesystem::path out = options.out;
-    std::string text = "# What the engines do: figures\n\nMade by\n\n```\n" + command_line(options) + " --out " +
-                       (out.is_relative() ? out : out.filename()).string() +
-                       "\n```\n\nwith version " STAIRSTEP_VERSION " on a machine of " +
-                       std::to_string(std::thread::hardware_concurrency()) +
-                       " cores. Errors and coverage are the same again for the same seed, on any machine and with any "
-                       "`--jobs`; times\nare one machine's, which others used meanwhile: their ratios count.\n";
+    std::string text =
+        "# What the engines do: figures\n\nMade by\n\n```\n" + command_line(options) + " --out " +
+        (out.is_relative() ? out : out.filename()).string() +
+        "\n```\n\nwith version " STAIRSTEP_VERSION " on a machine of " +
+        std::to_string(std::thread::hardware_concurrency()) +
+        " cores. Errors and coverage are the same again for the same seed, on any\nmachine and with any "
+        "number of `--jobs`. Times are one machine's, which others used meanwhile: their ratios count.\n";
     for (const BenchTable& table : tables) text += "\n" + to_markdown(table);
     return text;
 }
 
 void bench(BenchOptions options) {
     if (options.quick) {
-        if (!options.given("--runs")) options.runs = 400;
+        if (!options.given("--runs")) options.runs = 800;
         if (!options.given("--observers")) options.observers = 1;
     }
     const std::string extension = std::filesystem::path(options.out).extension().string();
@@ -123,8 +124,8 @@ void add_bench_command(CLI::App& app) {
         ->check(CLI::IsMember(kParts));
     command
         ->add_option("--runs", options->runs,
-                     "simulated tracks a method; slow ones do a fifth of them, coverage a fifth, gain a fiftieth, 20 "
-                     "at least")
+                     "simulated tracks a method for accuracy; psi-marginal does a fifth of them, coverage takes a "
+                     "twentieth an observer, gain a 200th, 20 at least")
         ->check(CLI::Range(40, 10'000'000))
         ->capture_default_str();
     command->add_option("--observers", options->observers, "of the simulated study, 640 trials each")
