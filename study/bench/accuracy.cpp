@@ -128,6 +128,7 @@ BenchTable measure_accuracy(const AccuracySettings& settings) {
         "rmse is the SD of the estimates about the true T ~ N(guess, 0.5), for prior SD 0.5, beta 3.5, gamma 0.5, "
         "delta "
         "0.01; robust_sd is 1.4826 times the median absolute error.",
+        "Psychtoolbox is the engine PsychtoolboxQuest, which gives the same numbers to 1e-9.",
         "bound is the least that n trials allow, 1/sqrt(n I + 1/0.25) with I = 17.789 the largest information of a "
         "trial.",
         "Errors have heavy tails: an early lapse or lucky guesses mislead a whole track, and few of them make up most "
