@@ -14,5 +14,6 @@ int main(int argc, char** argv) {
     add_export_command(app);
     add_status_command(app);
     add_quest_command(app);
+    add_bench_command(app);
     return run_program(app, argc, argv);
 }

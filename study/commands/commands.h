@@ -8,6 +8,7 @@ class App;
 
 namespace stairstep {
 
+void add_bench_command(CLI::App& app);
 void add_design_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_check_command(CLI::App& app);
