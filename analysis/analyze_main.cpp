@@ -3,6 +3,7 @@
 #include <iostream>
 #include <set>
 
+#include "analysis/commands/commands.h"
 #include "analysis/law_fit.h"
 #include "analysis/law_table.h"
 #include "analysis/report.h"
@@ -149,6 +150,9 @@ int main(int argc, char** argv) {
     report_command->add_option("--contact-sheet", inputs.contact_sheet, "PNG to show, from stairstep-stimuli");
     report_command->add_option("--renderings", inputs.render_stats, "stats.json to show, from stairstep-render");
     report_command->callback([&] { write_report(trials, p_thresholds, inputs, out); });
+
+    add_coverage_command(app);
+    add_power_command(app);
 
     return run_program(app, argc, argv);
 }

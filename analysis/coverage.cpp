@@ -19,7 +19,7 @@ PlantedStudy usual_study() {
 }
 
 /// One study's estimates by every method; none where no law could be fitted.
-std::vector<Estimate> estimates_of(const PlantedStudy& study, uint64_t seed, const CoverageSettings& settings) {
+std::vector<SlopeEstimate> estimates_of(const PlantedStudy& study, uint64_t seed, const CoverageSettings& settings) {
     LawFitOptions options;
     options.bootstrap = {.replicates = settings.replicates, .seed = seed, .jobs = 1};
     try {
@@ -31,13 +31,13 @@ std::vector<Estimate> estimates_of(const PlantedStudy& study, uint64_t seed, con
     }
 }
 
-MethodCoverage count(const std::string& method, const std::vector<std::vector<Estimate>>& studies, double truth) {
+MethodCoverage count(const std::string& method, const std::vector<std::vector<SlopeEstimate>>& studies, double truth) {
     MethodCoverage result{.method = method};
     int held = 0;
     double sum = 0, squares = 0, widths = 0;
-    for (const std::vector<Estimate>& estimates : studies) {
+    for (const std::vector<SlopeEstimate>& estimates : studies) {
         const auto estimate = std::find_if(estimates.begin(), estimates.end(),
-                                           [&](const Estimate& candidate) { return candidate.name == method; });
+                                           [&](const SlopeEstimate& candidate) { return candidate.name == method; });
         if (estimate == estimates.end()) continue;
         ++result.studies;
         held += estimate->ci95.first <= truth && truth <= estimate->ci95.second;
@@ -88,16 +88,16 @@ std::vector<CoverageCell> usual_cells() {
 CellCoverage coverage_of(const CoverageCell& cell, const CoverageSettings& settings,
                          const std::function<void()>& done) {
     assert(settings.studies >= 2);
-    std::vector<std::vector<Estimate>> studies(static_cast<size_t>(settings.studies));
+    std::vector<std::vector<SlopeEstimate>> studies(static_cast<size_t>(settings.studies));
     run_in_parallel(studies.size(), settings.jobs, [&](size_t i) {
         studies[i] = estimates_of(cell.study, Random(settings.seed).stream(i).bits() >> 1, settings);
         done();
     });
     CellCoverage result{cell.name, {}, 0};
     std::vector<std::string> methods;
-    for (const std::vector<Estimate>& estimates : studies) {
+    for (const std::vector<SlopeEstimate>& estimates : studies) {
         result.failed += estimates.empty();
-        for (const Estimate& estimate : estimates) {
+        for (const SlopeEstimate& estimate : estimates) {
             if (std::find(methods.begin(), methods.end(), estimate.name) == methods.end()) {
                 methods.push_back(estimate.name);
             }

@@ -26,7 +26,7 @@ std::vector<CoverageCell> usual_cells();
 
 /// One interval method in one cell.
 struct MethodCoverage {
-    /// As Estimate::name.
+    /// As SlopeEstimate::name.
     std::string method;
     /// Over the studies that could be fitted.
     int studies = 0;

@@ -1,10 +1,9 @@
 #include "analysis/observer_fit.h"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/ceres_options.h"
 #include "analysis/robust_mean.h"
 
 namespace stairstep {
@@ -71,14 +70,7 @@ std::optional<LawParameters<double>> fit(const std::vector<Threshold>& threshold
     if (free != FreeParameter::intercept) problem.SetParameterBlockConstant(&intercept);
     if (free != FreeParameter::exponent) problem.SetParameterBlockConstant(&exponent);
 
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.initial_trust_region_radius = 1e12;  // one or two parameters of order 1: plain Gauss-Newton steps
-    options.function_tolerance = 1e-18;
-    options.gradient_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-12;
-    options.max_num_iterations = 200;
+    ceres::Solver::Options options = least_squares_options(1e12);
     options.max_num_consecutive_invalid_steps =
         50;  // from so large a radius, steps to a negative r take a while to shrink
     ceres::Solver::Summary summary;

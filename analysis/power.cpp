@@ -48,14 +48,15 @@ bool finds(const PlannedEffect& effect, const Law& law) {
 }  // namespace
 
 PlannedEffect parse_effect(const std::string& text) {
-    const std::vector<std::string> parts = split(text, '=');
-    const auto value = parts.size() == 2 ? parse_number(parts[1]) : std::nullopt;
-    const bool is_ratio = parts[0] == "slope-ratio";
-    if (!value || (!is_ratio && parts[0] != "exponent") || *value < 0.5 || *value > 2) {
+    const size_t equals = text.find('=');
+    const std::string kind = text.substr(0, equals);
+    const bool is_ratio = kind == "slope-ratio";
+    const double value = equals == std::string::npos ? 0 : parse_number(text.substr(equals + 1)).value_or(0);
+    if ((!is_ratio && kind != "exponent") || value < 0.5 || value > 2) {
         throw InputError("--effect", "\"" + text + "\" is no effect",
                          "write slope-ratio=0.9 or exponent=0.8, values from 0.5 to 2");
     }
-    return {is_ratio ? PlannedEffect::Kind::slope_ratio : PlannedEffect::Kind::exponent, *value};
+    return {is_ratio ? PlannedEffect::Kind::slope_ratio : PlannedEffect::Kind::exponent, value};
 }
 
 int StudyPlan::conditions(const PlannedEffect& effect) const {

@@ -37,7 +37,7 @@ struct TrackSimulation {
 };
 
 struct TrackResult {
-    /// Estimate − T, log10 units.
+    /// ThresholdEstimate − T, log10 units.
     double error = 0;
     /// Whether T lies between the estimate's low and high.
     bool is_covered = false;
@@ -91,7 +91,7 @@ std::vector<std::vector<TrackResult>> simulate_tracks(const E& fresh, const Trac
                 const double intensity = engine.suggest();
                 engine.update(intensity, observer.answers_correctly(intensity));
             }
-            const Estimate e = engine.estimate();
+            const ThresholdEstimate e = engine.estimate();
             const double truth = observer.threshold();
             results[c][run] = {e.threshold - truth, e.low <= truth && truth <= e.high};
         }

@@ -14,7 +14,7 @@ class Stubborn {
     double suggest() const { return intensity_; }
     void update(double, bool) { ++trials_; }
     /// That T is 0, and 95 % of the posterior within 1 of it.
-    Estimate estimate() const { return {0, 1, -1, 1}; }
+    ThresholdEstimate estimate() const { return {0, 1, -1, 1}; }
     int trials() const { return trials_; }
 
   private:
