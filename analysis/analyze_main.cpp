@@ -4,9 +4,11 @@
 #include <set>
 
 #include "analysis/commands/commands.h"
+#include "analysis/figures.h"
 #include "analysis/law_fit.h"
 #include "analysis/law_table.h"
 #include "analysis/report.h"
+#include "analysis/result_csv.h"
 #include "stimuli/error.h"
 #include "stimuli/io/output_file.h"
 #include "stimuli/io/program.h"
@@ -19,6 +21,9 @@ namespace {
 
 /// What thresholds mean unless --p says otherwise: the study's own criterion.
 constexpr double kDefaultProbability = 0.82;
+
+/// What the report's table of texels compares.
+const std::vector<double> kReportedProbabilities{0.75, 0.82, 0.9};
 
 /// Trials and where they come from.
 struct StudyData {
@@ -87,13 +92,20 @@ void write_report(const std::string& trials_path, const std::string& criterion, 
                   const std::string& folder) {
     const double p_threshold = probabilities_of(criterion).front();
     const StudyData study = read_study(trials_path);
-    const LawFit fit = fit_law(study.trials, p_threshold, study.source);
+    LawFit fit = fit_law(study.trials, p_threshold, study.source);
+    fit.law.criteria = fit_criteria(study.trials, kReportedProbabilities, study.source);
     inputs.observer_kind = study.observer_kind;
     const std::string html = report_html(study.trials, fit, inputs);
-    make_output_folder(folder);
-    const std::filesystem::path file = std::filesystem::path(folder) / "report.html";
-    write_file(file, html);
-    std::cout << "wrote " << file.string() << "\n";
+    const std::filesystem::path out(folder);
+    make_output_folder(out);
+    write_file(out / "law.svg", law_figure(fit));
+    write_file(out / "convergence.svg", convergence_figure(study.trials, fit));
+    write_file(out / "thresholds.csv", thresholds_csv(fit));
+    write_file(out / "law.csv", law_csv(fit.law));
+    write_file(out / "report.html", html);
+    std::cout << "wrote " << (out / "report.html").string()
+              << ", its figures (law.svg, convergence.svg) and their data "
+              << "(thresholds.csv, law.csv)\n";
 }
 
 }  // namespace

@@ -11,8 +11,9 @@
 namespace stairstep {
 namespace {
 
-PlantedStudy usual_study() {
+PlantedStudy usual_study(const Design& design) {
     PlantedStudy study;
+    study.design = design;
     study.design.patterns = {Pattern::step};
     study.design.contrasts = {1};
     return study;
@@ -64,10 +65,10 @@ bool MethodCoverage::is_on_target() const {
     return coverage + 2 * coverage_se >= 0.93 && coverage - 2 * coverage_se <= 0.97;
 }
 
-std::vector<CoverageCell> usual_cells() {
-    std::vector<CoverageCell> cells{{"usual study", usual_study()}};
-    const auto add = [&cells](const char* name, auto change) {
-        PlantedStudy study = usual_study();
+std::vector<CoverageCell> usual_cells(const Design& design) {
+    std::vector<CoverageCell> cells{{"usual study", usual_study(design)}};
+    const auto add = [&](const char* name, auto change) {
+        PlantedStudy study = usual_study(design);
         change(study);
         cells.push_back({name, study});
     };

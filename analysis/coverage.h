@@ -21,8 +21,9 @@ struct CoverageCell {
     PlantedStudy study;
 };
 
-/// The usual study, then each variation.
-std::vector<CoverageCell> usual_cells();
+/// The usual study, then each variation. `design` gives engine, task, sizes and trials; patterns and contrasts are the usual
+/// study's, and the cells about sizes and trials replace the design's.
+std::vector<CoverageCell> usual_cells(const Design& design = {});
 
 /// One interval method in one cell.
 struct MethodCoverage {

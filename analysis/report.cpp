@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "analysis/figures.h"
+#include "analysis/law/sizing.h"
 #include "embedded/report.h"
 #include "stimuli/error.h"
 #include "stimuli/io/json_file.h"
@@ -93,12 +94,51 @@ std::string law_rows(const Law& law) {
     for (const ConditionLaw& c : law.conditions) {
         rows += "<tr><td>" + describe(c.pattern, c.contrast) + "</td><td>" + format_fixed(c.slope, 2) + "</td><td>" +
                 format_fixed(c.slope_ci95.first, 2) + " to " + format_fixed(c.slope_ci95.second, 2) + "</td><td>" +
-                format_fixed(c.between_observer_sd_ln, 2) + "</td><td>" +
+                format_fixed(c.tau_ln, 2) + "</td><td>" +
                 (c.has_form ? format_fixed(c.intercept_px, 1) + " " + in_brackets(c.intercept_ci95, 1) : "–") +
                 "</td><td>" + (c.has_form ? format_fixed(c.exponent, 2) + " " + in_brackets(c.exponent_ci95, 2) : "–") +
                 "</td><td>" + std::to_string(c.observers) + "</td><td>" + std::to_string(c.trials) + "</td></tr>\n";
     }
     return rows;
+}
+
+std::string comparisons_table(const Law& law) {
+    if (law.comparisons.empty()) return "";
+    std::string rows;
+    for (const Comparison& c : law.comparisons) {
+        rows += "<tr><td>" + describe(c.first.pattern, c.first.contrast) + " / " +
+                describe(c.second.pattern, c.second.contrast) + "</td><td>" + format_fixed(c.ratio, 2) + "</td><td>" +
+                format_fixed(c.ratio_ci95.first, 2) + " to " + format_fixed(c.ratio_ci95.second, 2) + "</td><td>" +
+                (c.p_holm < 0.0001 ? "&lt; 0.0001" : format_fixed(c.p_holm, 4)) + "</td><td>" +
+                std::to_string(c.observers) + "</td></tr>\n";
+    }
+    return "<table>\n<tr><th>slopes compared, observer by observer</th><th>ratio</th><th>95 % interval</th>"
+           "<th>p (paired t, Holm)</th><th>observers</th></tr>\n" +
+           rows + "</table>\n";
+}
+
+/// N = ⌈c·L/r⌉ at several criteria and radii: what a stricter criterion costs.
+std::string budget_section(const Law& law) {
+    if (law.criteria.empty()) return "";
+    constexpr double kShares[] = {0.005, 0.01, 0.02, 0.05};
+    std::string head = "<tr><th>hidden means</th><th>c</th><th>95 % interval</th>";
+    for (const double share : kShares) head += "<th>r = " + format_number(100 * share) + " % of L</th>";
+    std::string rows;
+    for (const CriterionLaw& c : law.criteria) {
+        rows += "<tr><td>" + format_number(std::round(1000 * c.threshold_probability) / 10) + " % right</td><td>" +
+                format_fixed(c.slope, 2) + "</td><td>" + format_fixed(c.slope_ci95.first, 2) + " to " +
+                format_fixed(c.slope_ci95.second, 2) + "</td>";
+        for (const double share : kShares) {
+            const MapSize size = shadow_map_size({.slope = c.slope, .radius = share, .extent = 1});
+            rows += "<td>" + std::to_string(size.texels) + "</td>";
+        }
+        rows += "</tr>\n";
+    }
+    return "<h2>Texels for a filter radius</h2>\n<table>\n" + head + "</tr>\n" + rows +
+           "</table>\n<p>Texels along one side of a shadow map that spans L, under a filter of radius r, for "
+           "thresholds at "
+           "several shares of right answers. The smaller the share, the less is seen, and the more radius, or the more "
+           "texels, that takes. Each is the worst case of the conditions.</p>\n";
 }
 
 std::string warnings_list(const std::vector<std::string>& warnings) {
@@ -197,6 +237,9 @@ std::string report_html(const std::vector<Trial>& trials, const LawFit& fit, con
         .text("first_condition", describe(first.condition.pattern, first.condition.contrast))
         .text("source", law.source)
         .set("law_rows", law_rows(law))
+        .text("slope_method", law.conditions.empty() ? "" : law.conditions.front().slope_method)
+        .set("comparisons", comparisons_table(law))
+        .set("budget", budget_section(law))
         .set("warnings", warnings_list(fit.warnings))
         .set("law_figure", inline_svg(law_figure(fit)))
         .set("convergence_figure", inline_svg(convergence_figure(trials, fit)))

@@ -250,7 +250,11 @@ void add_engine(ordered_json& object, const EngineSettings& settings) {
 
 void read_engine(JsonObject& object, EngineSettings& settings) {
     const std::string names = engine_names(std::make_index_sequence<std::variant_size_v<EngineSettings>>());
-    object.read_named("name", settings, engine_named<>, names.c_str());
+    // The engine that is there already keeps its settings.
+    std::string asked;
+    object.read("name", asked);
+    const bool is_there = std::visit([&](const auto& s) { return asked == name(s); }, settings);
+    if (!is_there) object.read_named("name", settings, engine_named<>, names.c_str());
     std::visit([&](auto& s) { read(object, s); }, settings);
 }
 

@@ -10,6 +10,7 @@
 #include "stimuli/io/output_file.h"
 #include "stimuli/io/progress.h"
 #include "stimuli/number.h"
+#include "study/design_json.h"
 
 namespace stairstep {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 struct Options {
     CoverageSettings settings;
     int cells = 0;
+    std::string design;
     std::string out;
     bool as_json = false;
 };
@@ -79,7 +81,7 @@ nlohmann::ordered_json json(const std::vector<CellCoverage>& cells) {
 }
 
 void print_coverage(const Options& options) {
-    std::vector<CoverageCell> cells = usual_cells();
+    std::vector<CoverageCell> cells = usual_cells(options.design.empty() ? Design() : read_design(options.design));
     if (options.cells > 0) cells.resize(std::min(cells.size(), static_cast<size_t>(options.cells)));
     Progress progress("simulating studies", static_cast<long>(cells.size()) * options.settings.studies);
     std::vector<CellCoverage> results;
@@ -102,6 +104,7 @@ void add_coverage_command(CLI::App& app) {
     command->add_option("--cells", options->cells, "only the first so many cells; 0 is all")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
+    command->add_option("--design", options->design, "design file whose engine, task, sizes and trials to use");
     command->add_option("--p", options->settings.p_threshold, "share of right answers that defines a threshold")
         ->check(CLI::Range(0.55, 0.9))
         ->capture_default_str();
