@@ -28,7 +28,7 @@ std::vector<CoverageCell> usual_cells(const Design& design = {});
 /// One interval method in one cell.
 struct MethodCoverage {
     /// As SlopeEstimate::name.
-    std::string method;
+    std::string method{};
     /// Over the studies that could be fitted.
     int studies = 0;
     /// Share of intervals that hold the planted slope, and its standard error.
