@@ -36,7 +36,7 @@ struct Coverage {
 };
 
 Coverage coverage(const std::vector<double>& truth, double common_share) {
-    constexpr int kStudies = 150;
+    constexpr int kStudies = 300;
     const double largest = *std::max_element(truth.begin(), truth.end());
     Coverage share;
     for (int i = 0; i < kStudies; ++i) {
@@ -56,11 +56,11 @@ Coverage coverage(const std::vector<double>& truth, double common_share) {
 }
 
 TEST(WorstCase, CoversTheLargestMeanWhereAllAreEqual) {
-    // Binomial SD .014; of 600 studies .970 and .965. The plain interval of the picked one is biased upward.
+    // 4,000 studies of another seed: .974 and .975, all but .001 of the misses above. Bounds 3 binomial SD (.009) off. The plain interval of the picked one is biased upward.
     for (const double common_share : {0.0, 0.75}) {
         const Coverage share = coverage({1, 1, 1, 1}, common_share);
-        EXPECT_GE(share.simultaneous, 0.93);
-        EXPECT_LT(share.above, 0.07);
+        EXPECT_GE(share.simultaneous, 0.946);
+        EXPECT_LE(share.above, 0.053);
         EXPECT_LE(share.below, 0.02);
         if (common_share == 0) {
             EXPECT_LT(share.plain, share.simultaneous - 0.02);
@@ -69,9 +69,10 @@ TEST(WorstCase, CoversTheLargestMeanWhereAllAreEqual) {
 }
 
 TEST(WorstCase, CoversTheLargestMeanWhereOneStandsOut) {
+    // 4,000 studies of another seed: .967, misses below .025. Bounds 3 binomial SD off.
     const Coverage share = coverage({1.5, 1, 1.1, 0.9}, 0.75);
-    EXPECT_GE(share.simultaneous, 0.93);
-    EXPECT_LE(share.below, 0.065);  // its upper end is the picked condition's own
+    EXPECT_GE(share.simultaneous, 0.936);
+    EXPECT_LE(share.below, 0.052);  // its upper end is the picked condition's own
 }
 
 TEST(WorstCase, OfOneConditionIsThatConditionsInterval) {
