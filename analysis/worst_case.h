@@ -7,7 +7,8 @@
 //
 // Lower end: it exceeds θ only where some m_k − q·se_k > θ ≥ μ_k, so with at most 2.5 %; exactly 2.5 % where all μ_k are
 // equal. Upper end: it misses θ only if the condition that is truly largest does, 2.5 % where one stands out, less otherwise.
-// So it covers at least 95 %, and at most 97.5 % and what the end that is not at its limit misses.
+// So it covers at least 95 %; simulated with four conditions of ten observers, 97.4 % where all are equal (the picked one's own
+// interval: 90–94 %) and 96.7 % where one stands out.
 //
 // q by simulation, because conditions are correlated: studies of normal observers with the correlation that the residuals have
 // (each simulated observer is a normal mixture of the real ones' standardised residuals, which has exactly that covariance)

@@ -311,17 +311,17 @@ TEST(RandomEffects, FewPreciseObserversAreTheirLimit) {
 }
 
 TEST(RandomEffects, ProfileAndPosteriorCover) {
+    // Of 2,000 studies .960 and .973 at τ = .05, .945 and .949 at .16. Binomial SD of 400 .011.
     for (const double tau : {0.05, 0.16}) {
         const double profile = coverage(
             10, tau, threefold,
-            [](const std::vector<Effect>& e) { return profile_likelihood(e, profile_bound(e.size())).interval; },
-            200);  // binomial SD .015; of 2,000 .960 and .946
-        const double posterior = coverage(10, tau, threefold, [](const std::vector<Effect>& e) {
-            return random_effects_posterior(e, 0.3).mean_ci95;
-        });
+            [](const std::vector<Effect>& e) { return profile_likelihood(e, profile_bound(e.size())).interval; }, 400);
+        const double posterior = coverage(
+            10, tau, threefold, [](const std::vector<Effect>& e) { return random_effects_posterior(e, 0.3).mean_ci95; },
+            400);
         std::printf("tau %.2f, 10 observers: profile %.3f, posterior %.3f\n", tau, profile, posterior);
-        EXPECT_GE(profile, 0.90);
-        EXPECT_GE(posterior, 0.90);
+        EXPECT_GE(profile, 0.912);
+        EXPECT_GE(posterior, 0.912);
     }
 }
 

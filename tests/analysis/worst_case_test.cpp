@@ -61,12 +61,13 @@ Coverage coverage(const std::vector<double>& truth, double common_share) {
 }
 
 TEST(WorstCase, CoversTheLargestMeanWhereAllAreEqual) {
-    // Binomial SD .009 at .97 and .011 at .95; of 500 studies .968 and .970. The plain interval of the picked one is biased upward.
+    // 4,000 studies of another seed: .974 and .975, all but .001 of the misses above. Bounds 3 binomial SD (.009) off. The plain
+    // interval of the picked one is biased upward.
     for (const double common_share : {0.0, 0.75}) {
         const Coverage share = coverage({1, 1, 1, 1}, common_share);
         if (kStudies < 200) continue;
-        EXPECT_GE(share.simultaneous, 0.93);
-        EXPECT_LT(share.above, 0.07);
+        EXPECT_GE(share.simultaneous, 0.946);
+        EXPECT_LE(share.above, 0.053);
         EXPECT_LE(share.below, 0.02);
         if (common_share == 0) {
             EXPECT_LT(share.plain, share.simultaneous - 0.02);
@@ -75,10 +76,11 @@ TEST(WorstCase, CoversTheLargestMeanWhereAllAreEqual) {
 }
 
 TEST(WorstCase, CoversTheLargestMeanWhereOneStandsOut) {
+    // 4,000 studies of another seed: .967, misses below .025. Bounds 3 binomial SD off.
     const Coverage share = coverage({1.5, 1, 1.1, 0.9}, 0.75);
     if (kStudies < 200) return;
-    EXPECT_GE(share.simultaneous, 0.93);
-    EXPECT_LE(share.below, 0.065);  // its upper end is the picked condition's own
+    EXPECT_GE(share.simultaneous, 0.936);
+    EXPECT_LE(share.below, 0.052);  // its upper end is the picked condition's own
 }
 
 TEST(WorstCase, OfOneConditionIsThatConditionsInterval) {
