@@ -2,8 +2,8 @@
 // Kreuzer's (2017, chapter 4) with four deviations: lines on half the trials, which γ = ½ needs, a prior in the unit of the
 // result, tracks of a fixed length, because observers dislike runs whose end they can't foresee, and trials at the threshold
 // itself. Where an answer tells most is above it, but a track that stays there knows the threshold only through the slope
-// that is assumed: with true slopes β of 2 and 5, `stairstep-analyze coverage` finds c off by −6 and +5 % there, and by
-// −0.5 and +1 % with trials at the threshold, for about 2 % more error in a single track.
+// that is assumed: with true slopes β of 2 and 5, `stairstep-analyze coverage` finds c off by −6 and +5 % there, and by less
+// than 1 % with trials at the threshold, for about 2 % more error in a single track.
 #pragma once
 
 #include <optional>
