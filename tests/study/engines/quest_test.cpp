@@ -14,7 +14,7 @@ namespace stairstep {
 namespace {
 
 TEST(Quest, KnowsTheInformationOfATrial) {
-    // references: I* = 17.789 at Ψ = .908 for β 3.5, γ .5, δ .01; the offset to there is .0638.
+    // Known: I* = 17.789 at Ψ = .908 for β 3.5, γ .5, δ .01; the offset to there is .0638.
     const PsychometricShape shape;
     EXPECT_NEAR(largest_information(shape), 17.789, 5e-4);
     EXPECT_NEAR(most_informative_offset(shape), 0.0638, 5e-5);
