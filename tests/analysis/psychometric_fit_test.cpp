@@ -89,7 +89,7 @@ TEST(PsychometricFit, GivesBackTheFunctionThatPredictsTheCountsExactly) {
     }
 }
 
-/// With slope, lapses and guessing known, one parameter is left: its variance is 1/(n·I), I from references' closed form.
+/// With slope, lapses and guessing known, one parameter is left: its variance is 1/(n·I), I the Fisher information in closed form.
 TEST(PsychometricFit, StandardErrorsAreTheInformations) {
     const PsychometricFit truth = known(Sigmoid::weibull, 0.82, {0, 3.5, 0, 0.5});
     std::vector<Level> levels;
