@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "analysis/statistics.h"
 #include "stimuli/error.h"
 #include "stimuli/number.h"
 #include "stimuli/parallel.h"
@@ -69,7 +70,8 @@ int StudyPlan::trials_an_observer(const PlannedEffect& effect) const {
 
 Interval Power::ci95() const {
     const double n = studies;
-    const double z2 = 1.959963984540054 * 1.959963984540054;
+    const double z = normal_quantile(0.975);
+    const double z2 = z * z;
     const double middle = (power() + z2 / (2 * n)) / (1 + z2 / n);
     const double half = std::sqrt(z2 * (power() * (1 - power()) / n + z2 / (4 * n * n))) / (1 + z2 / n);
     return {std::max(0.0, middle - half), std::min(1.0, middle + half)};

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "analysis/statistics.h"
 #include "stimuli/error.h"
 
 namespace stairstep {
@@ -24,7 +25,7 @@ struct Rate {
 };
 
 std::pair<double, double> interval(double value, double variance) {
-    const double half = 1.959963984540054 * std::sqrt(variance);
+    const double half = normal_quantile(0.975) * std::sqrt(variance);
     return {value - half, value + half};
 }
 

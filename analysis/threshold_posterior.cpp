@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/overdispersion.h"
+#include "stimuli/gauss_legendre.h"
 #include "study/engines/geometric_likelihood.h"
 #include "study/psychometric.h"
 
@@ -370,28 +371,6 @@ std::vector<PooledTrials> pool(std::vector<PooledTrials> trials) {
     }
     if (!trials.empty()) trials.resize(kept + 1);
     return trials;
-}
-
-QuadratureRule gauss_legendre(size_t count, double low, double high) {
-    QuadratureRule rule;
-    const double n = static_cast<double>(count);
-    for (size_t k = 0; k < count; ++k) {
-        double x = -std::cos(std::numbers::pi * (static_cast<double>(k) + 0.75) / (n + 0.5));
-        double slope = 1;
-        for (int iteration = 0; iteration < 8; ++iteration) {
-            double previous = 0, p = 1;
-            for (double j = 1; j <= n; ++j) {
-                const double next = ((2 * j - 1) * x * p - (j - 1) * previous) / j;
-                previous = p;
-                p = next;
-            }
-            slope = n * (x * p - previous) / (x * x - 1);
-            x -= p / slope;
-        }
-        rule.nodes.push_back((low + high) / 2 + (high - low) / 2 * x);
-        rule.weights.push_back((high - low) / ((1 - x * x) * slope * slope));
-    }
-    return rule;
 }
 
 std::vector<double> location_log_likelihood(const std::vector<PooledTrials>& pooled, double beta, double delta,

@@ -76,11 +76,4 @@ ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, 
 std::vector<double> location_log_likelihood(const std::vector<PooledTrials>& pooled, double beta, double delta,
                                             double first, double last, size_t points);
 
-/// Nodes and weights of Gauss's rule on [low, high] (Legendre), by Newton's method.
-struct QuadratureRule {
-    std::vector<double> nodes;
-    std::vector<double> weights;
-};
-QuadratureRule gauss_legendre(size_t count, double low, double high);
-
 }  // namespace stairstep

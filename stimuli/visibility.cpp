@@ -1,12 +1,12 @@
 #include "stimuli/visibility.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "stimuli/error.h"
+#include "stimuli/gauss_legendre.h"
 #include "stimuli/line_profile.h"
 #include "stimuli/number.h"
 #include "stimuli/quarter_mass.h"
@@ -20,33 +20,6 @@ double cut_normal_density(double x) {
     return kScale * std::exp(-2 * x * x);
 }
 
-/// Nodes and weights of Gauss–Legendre quadrature on [−1, 1], by Newton's method on the Legendre polynomial.
-template <size_t N>
-struct GaussLegendre {
-    std::array<double, N> nodes{};
-    std::array<double, N> weights{};
-
-    GaussLegendre() {
-        for (size_t i = 0; i < N; ++i) {
-            double x = std::cos(std::numbers::pi * (i + 0.75) / (N + 0.5));
-            double derivative = 0;
-            for (int step = 0; step < 20; ++step) {
-                double p0 = 1;
-                double p1 = x;
-                for (size_t n = 2; n <= N; ++n) {
-                    const double p2 = ((2.0 * n - 1) * x * p1 - (n - 1.0) * p0) / n;
-                    p0 = p1;
-                    p1 = p2;
-                }
-                derivative = N * (x * p1 - p0) / (x * x - 1);
-                x -= p1 / derivative;
-            }
-            nodes[i] = x;
-            weights[i] = 2 / ((1 - x * x) * derivative * derivative);
-        }
-    }
-};
-
 /// Mass of the cut Gaussian below x.
 double mass_below(double x) {
     return kernel_coordinate(KernelShape::gaussian, -x).mass;
@@ -54,7 +27,7 @@ double mass_below(double x) {
 
 /// Mass of the cut Gaussian above the line y = m·x − d: ∫ density(x)·[1 − Φ(m·x − d)] dx, in units of the radius.
 double gaussian_above_line(double slope, double d) {
-    static const GaussLegendre<24> kRule;
+    static const QuadratureRule kRule = gauss_legendre(24, -1, 1);
     constexpr double kCut = 1.5;
     // Φ has kinks where its argument passes the cut; between them the integrand is smooth. Pieces of at most half a unit
     // along x, and of at most one unit along the line, make 24 nodes exact to rounding.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/overdispersion.h"
+#include "stimuli/gauss_legendre.h"
 #include "stimuli/random.h"
 #include "study/engines/quest.h"
 #include "study/psychometric.h"
@@ -283,13 +284,6 @@ TEST(Overdispersion, WidensBlockedIntervalsAndLeavesAdaptiveTracksAlone) {
     EXPECT_NEAR(with.mean, without.mean, 1e-9);
     EXPECT_NEAR(with.sd, without.sd, 1e-9);
     EXPECT_NEAR(with.overdispersion, 1 / 11.0, 0.002);  // its prior's mean, cut off at ½
-}
-
-TEST(GaussLegendre, IntegratesPolynomials) {
-    const QuadratureRule rule = gauss_legendre(6, -1, 3);
-    double sum = 0;
-    for (size_t i = 0; i < rule.nodes.size(); ++i) sum += rule.weights[i] * std::pow(rule.nodes[i], 11);
-    EXPECT_NEAR(sum, (std::pow(3.0, 12) - 1) / 12, 1e-8);
 }
 
 }  // namespace
