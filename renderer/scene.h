@@ -1,4 +1,5 @@
-// A scene as a plain value: triangles in world space, what they are made of, and nothing of OpenGL.
+// A scene as a plain value: triangles, what they are made of, and nothing of OpenGL. Triangles that never move are in
+// world space; those that do are in the space of their mover (scene_state.h).
 //
 // World space is right-handed with y up; its unit is whatever the model's author chose. Colours are linear.
 #pragma once
@@ -36,6 +37,8 @@ struct Mesh {
     size_t material = 0;
     /// Whether it throws shadows. All meshes receive them.
     bool casts = true;
+    /// Index into SceneState::movers for a mesh that moves; others stand where their vertices are.
+    std::optional<size_t> mover;
     /// Whether it fades into the background far from the scene's middle, as a ground without an end does.
     bool fades = false;
 };

@@ -42,6 +42,17 @@ Basis basis_towards(const Direction& direction) {
     return {right, glm::cross(back, right), back};
 }
 
+Direction direction_of(const glm::dvec3& vector) {
+    const double across = std::hypot(vector.x, vector.z);
+    const double degrees = 180 / std::numbers::pi;
+    return {std::atan2(vector.x, vector.z) * degrees, std::atan2(vector.y, across) * degrees};
+}
+
+Camera camera_looking_at(const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov_deg, double near,
+                         double far) {
+    return {basis_towards(direction_of(eye - target)), eye, vertical_fov_deg, near, far};
+}
+
 Camera framing_camera(const std::vector<glm::dvec3>& points, const Direction& direction, double aspect,
                       double distance_factor, double reach) {
     Camera camera;

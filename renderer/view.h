@@ -25,6 +25,9 @@ struct Basis {
 /// well.
 Basis basis_towards(const Direction& direction);
 
+/// The direction of a vector, of any length but 0.
+Direction direction_of(const glm::dvec3& vector);
+
 /// A perspective camera, looking along −back.
 struct Camera {
     Basis basis;
@@ -34,6 +37,10 @@ struct Camera {
     double near = 0.1;
     double far = 100;
 };
+
+/// A camera at `eye` that looks at `target`, which must be elsewhere.
+Camera camera_looking_at(const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov_deg, double near,
+                         double far);
 
 /// The camera that sees all `points` as large as they will fit a picture of this aspect (width/height), at
 /// `distance_factor` times that distance. far reaches `reach` world units beyond the points.
