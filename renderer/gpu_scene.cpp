@@ -55,11 +55,17 @@ GpuScene upload(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.indices.empty()) continue;
         gpu.draws.push_back({indices.size(), static_cast<GLsizei>(mesh.indices.size()), scene.materials[mesh.material],
-                             mesh.casts, mesh.fades});
+                             mesh.casts, mesh.fades, mesh.mover});
         const auto base = static_cast<uint32_t>(vertices.size());
         for (const uint32_t index : mesh.indices) indices.push_back(base + index);
         append_facet_normals(mesh, facet_normals);
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    }
+    if (indices.empty()) {
+        // Buffers can't be empty; nothing is drawn from these.
+        vertices.emplace_back();
+        indices.push_back(0);
+        facet_normals.push_back(0);
     }
     gpu.vertices = gl::make_buffer(std::as_bytes(std::span(vertices)));
     gpu.indices = gl::make_buffer(std::as_bytes(std::span(indices)));
@@ -71,6 +77,12 @@ GpuScene upload(const Scene& scene) {
     set_attribute(gpu.vertex_array, 1, 3, offsetof(Vertex, normal));
     set_attribute(gpu.vertex_array, 2, 2, offsetof(Vertex, uv));
     for (const Image& image : scene.textures) gpu.textures.push_back(upload_texture(image));
+    gpu.extents = extents_of(scene);
+    const Bounds casters = caster_bounds(scene);
+    if (!casters.empty()) {
+        gpu.middle = casters.centre();
+        gpu.diagonal = casters.diagonal();
+    }
     gl::throw_on_error("uploading the scene");
     return gpu;
 }

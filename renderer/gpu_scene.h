@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renderer/gl/objects.h"
-#include "renderer/scene.h"
+#include "renderer/scene_extents.h"
 
 namespace stairstep {
 
@@ -15,6 +15,8 @@ struct GpuScene {
         Material material;
         bool casts = true;
         bool fades = false;
+        /// As Mesh::mover.
+        std::optional<size_t> mover;
     };
 
     gl::Buffer vertices;
@@ -27,9 +29,13 @@ struct GpuScene {
     /// As Scene::textures; sRGB with mipmaps.
     std::vector<gl::Texture> textures;
     std::vector<Draw> draws;
+    SceneExtents extents;
+    /// Of the casters as they stand in the model, world units: where a ground without an end fades.
+    glm::dvec3 middle{0};
+    double diagonal = 1;
 };
 
-/// Copies the scene to the GPU; it must hold at least one triangle. Throws FailureError.
+/// Copies the scene to the GPU; an empty one draws nothing. Throws FailureError.
 GpuScene upload(const Scene& scene);
 
 }  // namespace stairstep

@@ -1,81 +1,228 @@
 #include "renderer/light_frustum.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace stairstep {
 namespace {
 
-ShadowMapShape::Limit limit_of(SizeLimit limit) {
-    switch (limit) {
-        case SizeLimit::law: return ShadowMapShape::Limit::law;
-        case SizeLimit::screen: return ShadowMapShape::Limit::screen;
-        case SizeLimit::largest_size: return ShadowMapShape::Limit::largest_size;
+using Points = std::vector<glm::dvec2>;
+
+struct Rectangle {
+    glm::dvec2 low{INFINITY};
+    glm::dvec2 high{-INFINITY};
+
+    void add(const glm::dvec2& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
     }
-    return ShadowMapShape::Limit::law;
+    bool empty() const { return !(low.x <= high.x && low.y <= high.y); }
+    double area() const { return empty() ? 0 : (high.x - low.x) * (high.y - low.y); }
+};
+
+Rectangle overlap(const Rectangle& a, const Rectangle& b) {
+    return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
+}
+
+Rectangle widened(const Rectangle& a, double margin) {
+    return {a.low - margin, a.high + margin};
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Corners of the convex hull, anticlockwise (Andrew 1979).
+Points convex_hull(Points points) {
+    const auto before = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+    std::sort(points.begin(), points.end(), before);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < 3) return points;
+    Points hull;
+    for (const int pass : {0, 1}) {
+        const size_t first = hull.size();
+        for (const glm::dvec2& point : points) {
+            while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0) {
+                hull.pop_back();
+            }
+            hull.push_back(point);
+        }
+        hull.pop_back();
+        if (pass == 0) std::reverse(points.begin(), points.end());
+    }
+    return hull;
+}
+
+glm::dvec2 turned(const glm::dvec2& point, const glm::dvec2& axis) {
+    return {glm::dot(point, axis), cross(axis, point)};
+}
+
+Rectangle around(const Points& points, const glm::dvec2& axis) {
+    Rectangle rectangle;
+    for (const glm::dvec2& point : points) rectangle.add(turned(point, axis));
+    return rectangle;
+}
+
+/// The first axis of the rectangle that is smallest. Of the overlap of two bounding rectangles, too, one side lies along
+/// a side of a hull: between the angles at which a hull's touching corner changes, its extent is a sine, which has no
+/// minimum inside.
+glm::dvec2 axis_of_smallest(const Points& casters, const Points& receivers, double reach) {
+    const Points caster_hull = convex_hull(casters);
+    const Points receiver_hull = convex_hull(receivers);
+    glm::dvec2 best(1, 0);
+    double smallest = INFINITY;
+    for (const Points* hull : {&caster_hull, &receiver_hull}) {
+        for (size_t i = 0; i < hull->size(); ++i) {
+            const glm::dvec2 side = (*hull)[(i + 1) % hull->size()] - (*hull)[i];
+            if (!(glm::length(side) > 0)) continue;
+            const glm::dvec2 axis = glm::normalize(side);
+            const Rectangle rectangle = overlap(around(caster_hull, axis), widened(around(receiver_hull, axis), reach));
+            if (!rectangle.empty() && rectangle.area() < smallest) {
+                smallest = rectangle.area();
+                best = axis;
+            }
+        }
+    }
+    return best;
+}
+
+/// Depths along the light between which the casters lie, clear of both ends, also when all lie in one plane across the
+/// light: rounding must not clip the first, nor make the last as deep as an empty texel.
+void set_depths(LightFrustum& frustum, const Bounds& casters, double clearance) {
+    if (casters.empty()) {
+        frustum.nearest = frustum.kind == Light::Kind::spot ? 0.5 : 0;
+        frustum.farthest = frustum.nearest + 1;
+        return;
+    }
+    frustum.nearest = casters.low.z - clearance;
+    frustum.farthest = casters.high.z + clearance;
+    if (frustum.kind == Light::Kind::spot) {
+        // All casters behind the light: any depth will do.
+        frustum.farthest = std::max(frustum.farthest, clearance);
+        frustum.nearest = std::max(frustum.nearest, frustum.farthest * 1e-3);
+    }
+}
+
+/// The planes of a frustum's four sides, each `reach` further out.
+std::vector<glm::dvec4> side_planes(const LightFrustum& frustum, double reach) {
+    const auto& [right, up, back] = frustum.basis;
+    std::vector<glm::dvec4> planes;
+    const auto add = [&](const glm::dvec3& axis, double offset) {
+        // Along the axis from the light, no less than the offset; a spot's grows with depth.
+        const bool spot = frustum.kind == Light::Kind::spot;
+        const glm::dvec3 normal = spot ? axis + offset * back : axis;
+        planes.emplace_back(normal, -glm::dot(normal, frustum.position) - (spot ? 0 : offset));
+    };
+    add(right, frustum.low.x - reach);
+    add(up, frustum.low.y - reach);
+    add(-right, -frustum.high.x - reach);
+    add(-up, -frustum.high.y - reach);
+    return planes;
 }
 
 }  // namespace
 
-std::string_view name(ShadowMapShape::Limit limit) {
-    switch (limit) {
-        case ShadowMapShape::Limit::fixed: return "fixed";
-        case ShadowMapShape::Limit::law: return "law";
-        case ShadowMapShape::Limit::screen: return "screen";
-        case ShadowMapShape::Limit::largest_size: return "largest_size";
-    }
-    return "";
+glm::dvec3 light_plane_point(const LightFrustum& frustum, const glm::dvec3& world) {
+    const auto& [right, up, back] = frustum.basis;
+    const glm::dvec3 from_light = world - frustum.position;
+    const glm::dvec3 point(glm::dot(right, from_light), glm::dot(up, from_light), -glm::dot(back, from_light));
+    if (frustum.kind == Light::Kind::directional) return point;
+    return {point.x / point.z, point.y / point.z, point.z};
 }
 
-LightFrustum fit_light_frustum(const Scene& scene, const Direction& light, double margin) {
-    const Basis basis = basis_towards(light);
-    Bounds bounds;
-    for (const Mesh& mesh : scene.meshes) {
-        if (!mesh.casts) continue;
-        for (const uint32_t index : mesh.indices) {
-            const glm::dvec3 p = mesh.vertices[index].position;
-            bounds.add({glm::dot(p, basis.right), glm::dot(p, basis.up), -glm::dot(p, basis.back)});
+LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& state, double aspect, Fit fit,
+                               const Reach& reach) {
+    const Light& light = state.light;
+    const bool spot = light.kind == Light::Kind::spot;
+    LightFrustum frustum;
+    frustum.kind = light.kind;
+    frustum.basis = light.basis;
+    if (spot) frustum.position = light.position;
+
+    // Casters, in light space: across the light and along it.
+    Bounds casters;
+    std::vector<glm::vec3> caster_points;
+    for (size_t i = 0; i < extents.parts.size(); ++i) {
+        const glm::dmat4 world_from_part = SceneExtents::placement(state, i);
+        const auto& [right, up, back] = frustum.basis;
+        const glm::dmat4 light_from_world(
+            glm::dvec4(right.x, up.x, -back.x, 0), glm::dvec4(right.y, up.y, -back.y, 0),
+            glm::dvec4(right.z, up.z, -back.z, 0),
+            glm::dvec4(-glm::dot(right, frustum.position), -glm::dot(up, frustum.position),
+                       glm::dot(back, frustum.position), 1));
+        const glm::dmat4 light_from_part = light_from_world * world_from_part;
+        for (const glm::vec3& corner : extents.parts[i].casters) {
+            const glm::dvec3 point(light_from_part * glm::dvec4(corner, 1));
+            casters.add(point);
+            caster_points.emplace_back(point);
         }
     }
-    // Casters stay clear of both ends, also when all lie in one plane across the light: rounding must not
-    // clip the first, nor make the last as deep as an empty texel.
-    const double clearance = 1e-3 * bounds.diagonal() + 1e-3 * margin;
-    return {basis, glm::dvec2(bounds.low) - margin, glm::dvec2(bounds.high) + margin, bounds.low.z - clearance,
-            bounds.high.z + clearance};
-}
+    const double diagonal = casters.empty() ? 1 : casters.diagonal();
+    set_depths(frustum, casters, 1e-3 * diagonal);
+    const double depth_range = frustum.farthest - frustum.nearest;
+    frustum.softness = spot ? light.half_side * depth_range / (frustum.nearest * frustum.farthest)
+                            : light.half_tangent() * depth_range;
 
-ShadowMapShape map_of_size(const LightFrustum& frustum, int side) {
-    return {frustum, side, side, ShadowMapShape::Limit::fixed};
-}
-
-ShadowMapShape map_by_law(const LightFrustum& frustum, const SizeRequest& request) {
-    const double texel = std::max(request.radius / request.slope, request.smallest_texel);
-    ShadowMapShape shape{frustum, 1, 1, ShadowMapShape::Limit::law};
-    for (const int axis : {0, 1}) {
-        SizeRequest along = request;
-        along.extent = frustum.extent()[axis];
-        const MapSize size = shadow_map_size(along);
-        (axis == 0 ? shape.width : shape.height) = size.texels;
-        shape.limit = std::max(shape.limit, limit_of(size.limit));
-        if (size.limit != SizeLimit::largest_size) {
-            const double missing = size.texels * texel - along.extent;
-            shape.frustum.low[axis] -= missing / 2;
-            shape.frustum.high[axis] += missing / 2;
+    // Both sets in the light plane. A caster at or behind a spot's nearest depth may be anywhere across.
+    Points caster_plane;
+    bool anywhere = false;
+    for (const glm::dvec3 point : caster_points) {
+        if (spot && point.z <= frustum.nearest) {
+            anywhere = true;
+        } else {
+            caster_plane.emplace_back(spot ? glm::dvec2(point) / point.z : glm::dvec2(point));
         }
     }
-    return shape;
-}
+    const double cone = std::tan(light.cone_deg * std::numbers::pi / 180);
+    const Points whole_cone{{-cone, -cone}, {cone, -cone}, {cone, cone}, {-cone, cone}};
+    if (anywhere) caster_plane = whole_cone;
 
-glm::mat4 texel_from_world(const ShadowMapShape& shape) {
-    const auto& [right, up, back] = shape.frustum.basis;
-    const glm::dvec3 scale(1 / shape.texel().x, 1 / shape.texel().y,
-                           1 / (shape.frustum.farthest - shape.frustum.nearest));
-    const glm::dvec3 origin(shape.frustum.low, shape.frustum.nearest);
-    glm::dmat4 matrix(1);
-    for (int column = 0; column < 3; ++column) {
-        matrix[column] = glm::dvec4(scale * glm::dvec3(right[column], up[column], -back[column]), 0);
+    std::vector<glm::dvec4> planes = view_planes(state.camera, aspect);
+    if (spot) {
+        // What lies behind the light, or nearer than any caster, receives no shadow.
+        const glm::dvec3 along = -frustum.basis.back;
+        planes.emplace_back(along, -glm::dot(along, frustum.position) - frustum.nearest);
     }
-    matrix[3] = glm::dvec4(-scale * origin, 1);
-    return glm::mat4(matrix);
+    Points receiver_plane;
+    double farthest_receiver = frustum.nearest;
+    for (size_t i = 0; i < extents.parts.size(); ++i) {
+        for (const glm::dvec3& corner :
+             cut_corners(extents.parts[i].meshes, SceneExtents::placement(state, i), planes)) {
+            const glm::dvec3 point = light_plane_point(frustum, corner);
+            receiver_plane.emplace_back(point);
+            farthest_receiver = std::max(farthest_receiver, point.z);
+        }
+    }
+
+    frustum.receiver_depth = (farthest_receiver - frustum.nearest) / depth_range;
+    if (spot) frustum.receiver_depth *= frustum.farthest / farthest_receiver;
+    const double look_around = reach(frustum);
+    glm::dvec2 axis(1, 0);
+    if (fit == Fit::smallest_rectangle && !caster_plane.empty() && !receiver_plane.empty()) {
+        axis = axis_of_smallest(caster_plane, receiver_plane, look_around);
+        const Basis own = frustum.basis;
+        frustum.basis.right = axis.x * own.right + axis.y * own.up;
+        frustum.basis.up = axis.x * own.up - axis.y * own.right;
+    }
+    Rectangle seen = overlap(around(caster_plane, axis), widened(around(receiver_plane, axis), look_around));
+    if (spot) seen = overlap(seen, widened(around(whole_cone, axis), look_around));
+    // Nothing that casts a shadow on anything visible: a map of any place will do.
+    if (seen.empty()) seen = {glm::dvec2(0), glm::dvec2(0)};
+    const double least = 1e-6 * (spot ? cone : diagonal) + std::numeric_limits<double>::min();
+    frustum.low = seen.low - least;
+    frustum.high = seen.high + least;
+
+    for (const glm::dvec4& plane : side_planes(frustum, look_around)) planes.push_back(plane);
+    frustum.view_distance = INFINITY;
+    for (size_t i = 0; i < extents.parts.size(); ++i) {
+        for (const glm::dvec3& corner :
+             cut_corners(extents.parts[i].meshes, SceneExtents::placement(state, i), planes)) {
+            frustum.view_distance =
+                std::min(frustum.view_distance, glm::dot(state.camera.eye - corner, state.camera.basis.back));
+        }
+    }
+    return frustum;
 }
 
 }  // namespace stairstep

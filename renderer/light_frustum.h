@@ -1,61 +1,62 @@
-// What a directional light's shadow map covers, and how many texels it has.
+// What a shadow map covers, fitted to what can be seen.
 //
-// Light space: x along basis.right, y along basis.up, depth away from the light; world units. Texel space: x
-// and y in texels of the map, texel (i, j) covering [i, i + 1) × [j, j + 1), and depth scaled to [0, 1).
+// The light plane lies across the light. A directional light's has coordinates along basis.right and basis.up in world
+// units; a spot's has tangents: the same, over the depth along the light. Filter radii, texels and extents are lengths in
+// the light plane.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 
-#include "analysis/law/sizing.h"
-#include "renderer/scene.h"
-#include "renderer/view.h"
+#include "renderer/scene_extents.h"
 
 namespace stairstep {
 
-/// A box in light space.
 struct LightFrustum {
-    /// basis.back points to the light.
+    Light::Kind kind = Light::Kind::directional;
+    /// back points to the light; right and up are the map's axes, turned about it where that makes the map smaller.
     Basis basis;
+    /// Of a spot.
+    glm::dvec3 position{0};
+    /// In the light plane.
     glm::dvec2 low;
     glm::dvec2 high;
-    /// The casters lie strictly between; an empty texel stores `farthest`.
+    /// Depths along the light between which the casters lie strictly; an empty texel stores `farthest`. A spot's nearest
+    /// is above 0.
     double nearest = 0;
     double farthest = 1;
+    /// Half-width of a penumbra's filter in the light plane for each unit between the stored depths of receiver and
+    /// caster: stored depth is linear in depth for a directional light and in its reciprocal for a spot, and so is the
+    /// half-width (light.h), so their quotient is a constant.
+    double softness = 0;
+    /// Depth of the visible receiver farthest along the light, as stored depths are, but above 1 beyond the map's end.
+    double receiver_depth = 1;
+    /// Distance along the view of the nearest visible receiver that may be shadowed, world units; infinite for none.
+    double view_distance = 0;
 
     glm::dvec2 extent() const { return high - low; }
 };
 
-/// The tightest box around all casters, widened sideways by `margin` (the filter's radius), so that a filter
-/// that leaves the map finds no caster there: outside, everything is lit. Receivers may lie beyond its far
-/// end: their depth is clamped to it, which leaves every comparison as it was, so they cost the depth no
-/// precision.
-LightFrustum fit_light_frustum(const Scene& scene, const Direction& light, double margin);
-
-/// A map: what it covers, and its texels along each axis.
-struct ShadowMapShape {
-    LightFrustum frustum;
-    int width = 1;
-    int height = 1;
-    /// What decided the size; fixed where a user did.
-    enum class Limit { fixed, law, screen, largest_size } limit = Limit::fixed;
-
-    /// Sides of a texel, world units.
-    glm::dvec2 texel() const { return frustum.extent() / glm::dvec2(width, height); }
-    size_t texel_count() const { return static_cast<size_t>(width) * height; }
+enum class Fit {
+    /// Along the light's own axes.
+    axis_aligned,
+    /// Along the axes that make the map's area smallest: one is along a side of a convex hull (Freeman & Shapira 1975;
+    /// Brabec 2003, section 4.2).
+    smallest_rectangle,
 };
 
-std::string_view name(ShadowMapShape::Limit limit);
+/// How far from a receiver's own place its technique looks, light plane, ≥ 0, given the frustum's depths, softness and receiver_depth.
+using Reach = std::function<double(const LightFrustum&)>;
 
-/// A map of side × side texels, whatever the frustum's proportions.
-ShadowMapShape map_of_size(const LightFrustum& frustum, int side);
+/// PSR = L ∩ V ∩ S (Brabec 2003): a rectangle that holds all of the casters' extent that the reach of a visible receiver
+/// overlaps, and no more. Beyond its sides no visible receiver sees a caster: what lies outside is lit. Depth spans the
+/// casters; receivers may lie beyond its far end: their depth is clamped to it, which leaves every comparison as it was,
+/// so they cost the depth no precision. Casters nearer to a spot than 1/1000 of its farthest are clamped likewise.
+/// `aspect` is the picture's width over its height.
+LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& state, double aspect, Fit fit,
+                               const Reach& reach);
 
-/// The smallest map that the law allows, each axis by its own extent. `request` gives all but the extent. The
-/// frustum is widened by less than a texel so that the texel is exactly r/c (or the smallest texel) on both
-/// axes: the filter's footprint is then the same number of texels, whatever the scene. Throws as
-/// shadow_map_size.
-ShadowMapShape map_by_law(const LightFrustum& frustum, const SizeRequest& request);
-
-/// World space to texel space.
-glm::mat4 texel_from_world(const ShadowMapShape& shape);
+/// In the light plane, then the depth along the light.
+glm::dvec3 light_plane_point(const LightFrustum& frustum, const glm::dvec3& world);
 
 }  // namespace stairstep

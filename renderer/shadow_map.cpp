@@ -2,16 +2,19 @@
 
 namespace stairstep {
 
-ShadowMap make_shadow_map(const ShadowMapShape& shape) {
-    gl::Texture depth = gl::make_texture(GL_DEPTH_COMPONENT32F, shape.width, shape.height);
-    const float empty[4] = {1, 1, 1, 1};
+DepthMap make_depth_map(int width, int height) {
+    gl::Texture depth = gl::make_texture(GL_DEPTH_COMPONENT32F, width, height);
     gl::TextureParameteri(depth.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl::TextureParameteri(depth.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-    gl::TextureParameterfv(depth.id(), GL_TEXTURE_BORDER_COLOR, empty);
+    gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl::Framebuffer framebuffer = gl::make_framebuffer(0, depth.id());
-    return {shape, std::move(depth), std::move(framebuffer)};
+    return {std::move(depth), std::move(framebuffer)};
+}
+
+ShadowMap reserve_shadow_map(int capacity) {
+    const int side = capacity + 2 * kGuardTexels;
+    return {capacity, make_depth_map(side, side), {}, 0};
 }
 
 }  // namespace stairstep

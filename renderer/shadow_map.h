@@ -3,20 +3,38 @@
 #pragma once
 
 #include "renderer/gl/objects.h"
-#include "renderer/light_frustum.h"
+#include "renderer/shadow_map_shape.h"
 
 namespace stairstep {
 
-struct ShadowMap {
-    ShadowMapShape shape;
-    /// 32-bit float depth, [0, 1] in texel space; 1 is empty, and so is everything beyond the border. It
-    /// isn't filtered and compares nothing: techniques read raw depths, so that each texel can be compared
-    /// with the depth that the receiver's plane has at this very texel.
+/// A depth texture that can be drawn into: 32-bit float, unfiltered, and comparing nothing.
+struct DepthMap {
     gl::Texture depth;
     gl::Framebuffer framebuffer;
 };
 
 /// Throws FailureError where the driver can't make one of this size.
-ShadowMap make_shadow_map(const ShadowMapShape& shape);
+DepthMap make_depth_map(int width, int height);
+
+/// Empty texels on each side of a map's own in its texture, so that a filter that leaves the map reads light without a
+/// test. shaders/receiver.glsl has the same number.
+inline constexpr int kGuardTexels = 2;
+
+/// Memory for maps of up to `capacity` texels a side, reserved once, and the map that it holds now: a part of it, behind
+/// kGuardTexels of empty ones. Techniques read raw depths, so that each texel can be compared with the depth that the
+/// receiver's plane has at this very texel.
+struct ShadowMap {
+    int capacity = 0;
+    DepthMap memory;
+    ShadowMapShape shape;
+    /// Half-width of a constant filter, light plane.
+    double filter_radius = 0;
+
+    /// Side of the texture.
+    int texture_side() const { return capacity + 2 * kGuardTexels; }
+};
+
+/// An empty map. Throws FailureError as make_depth_map.
+ShadowMap reserve_shadow_map(int capacity);
 
 }  // namespace stairstep

@@ -41,11 +41,11 @@ void draw_fan(std::span<const glm::dvec2> outline, float depth) {
 
 /// Both passes look straight down on their plane: points are already in texels, or pixels, of what is drawn into.
 void set_plane(const gl::Program& program, int width, int height) {
-    gl::set_uniform(program, "texel_from_world", glm::mat4(1));
+    gl::set_uniform(program, "texel_from_model", glm::mat4(1));
     gl::set_uniform(program, "map_size", glm::vec2(width, height));
 }
 
-void draw_depth_pass(const gl::Program& program, const HalfPlaneMap& half_plane, const ShadowMap& map) {
+void draw_depth_pass(const gl::Program& program, const HalfPlaneMap& half_plane, const DepthMap& map) {
     const float empty = 1;
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, map.framebuffer.id());
     gl::Viewport(0, 0, half_plane.width, half_plane.height);
@@ -109,7 +109,7 @@ class BoundKernel {
 
 /// The receiver: a rectangle that fills the screen. The filter asks the map for each of its pixels.
 std::vector<float> draw_receiver(const gl::Program& program, const Stimulus& stimulus, const HalfPlaneMap& half_plane,
-                                 const ShadowMap& map) {
+                                 const DepthMap& map) {
     const int width = stimulus.width_px;
     const int height = stimulus.height_px;
     const gl::Texture picture = gl::make_texture(GL_R32F, width, height);
@@ -155,7 +155,7 @@ std::vector<double> StimulusRenderer::luminance(const Stimulus& stimulus) {
     GLint subpixel_bits = 0;
     gl::GetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits);
     const HalfPlaneMap half_plane = half_plane_map(stimulus, 1 << subpixel_bits);
-    const ShadowMap map = make_shadow_map({{}, half_plane.width, half_plane.height});
+    const DepthMap map = make_depth_map(half_plane.width, half_plane.height);
 
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     draw_depth_pass(depth_program_, half_plane, map);

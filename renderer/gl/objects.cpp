@@ -1,5 +1,6 @@
 #include "renderer/gl/objects.h"
 
+#include <array>
 #include <string>
 
 #include "stimuli/error.h"
@@ -59,14 +60,29 @@ VertexArray make_vertex_array() {
     return VertexArray(id);
 }
 
-Framebuffer make_framebuffer(GLuint colour_texture, GLuint depth_texture) {
+Buffer make_read_buffer(size_t bytes) {
+    GLuint id = 0;
+    CreateBuffers(1, &id);
+    Buffer buffer(id);
+    NamedBufferStorage(id, static_cast<GLsizeiptr>(bytes), nullptr, GL_CLIENT_STORAGE_BIT);
+    throw_on_error("making a buffer");
+    return buffer;
+}
+
+Framebuffer make_framebuffer(GLuint colour_texture, GLuint depth_texture, GLuint second_colour_texture) {
     GLuint id = 0;
     CreateFramebuffers(1, &id);
     Framebuffer framebuffer(id);
     const GLenum colour = colour_texture ? GL_COLOR_ATTACHMENT0 : GL_NONE;
     if (colour_texture) NamedFramebufferTexture(id, GL_COLOR_ATTACHMENT0, colour_texture, 0);
     if (depth_texture) NamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth_texture, 0);
-    NamedFramebufferDrawBuffer(id, colour);
+    if (second_colour_texture) {
+        constexpr std::array<GLenum, 2> kBoth{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+        NamedFramebufferTexture(id, GL_COLOR_ATTACHMENT1, second_colour_texture, 0);
+        NamedFramebufferDrawBuffers(id, static_cast<GLsizei>(kBoth.size()), kBoth.data());
+    } else {
+        NamedFramebufferDrawBuffer(id, colour);
+    }
     NamedFramebufferReadBuffer(id, colour);
     if (CheckNamedFramebufferStatus(id, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         throw FailureError("OpenGL", "the driver can't draw into this kind of framebuffer",

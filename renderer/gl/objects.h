@@ -75,7 +75,10 @@ Buffer make_buffer(std::span<const std::byte> content);
 VertexArray make_vertex_array();
 
 /// A framebuffer that draws into these; 0 stands for none. Throws if the driver finds it incomplete.
-Framebuffer make_framebuffer(GLuint colour_texture, GLuint depth_texture);
+Framebuffer make_framebuffer(GLuint colour_texture, GLuint depth_texture, GLuint second_colour_texture = 0);
+
+/// A buffer of this many bytes that GL writes, and that is read back.
+Buffer make_read_buffer(size_t bytes);
 
 /// A timer query (GL_TIME_ELAPSED).
 Query make_timer_query();

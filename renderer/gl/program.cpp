@@ -8,7 +8,7 @@
 namespace stairstep::gl {
 namespace {
 
-Shader compile(GLenum stage, const std::string& name, ShaderParts parts) {
+Shader compile(GLenum stage, const std::string& name, const ShaderParts& parts) {
     std::vector<const char*> texts;
     std::vector<GLint> lengths;
     for (const std::string_view part : parts) {
@@ -37,7 +37,7 @@ GLint location(const Program& program, const char* name) {
 
 }  // namespace
 
-Program make_program(const std::string& name, ShaderParts vertex, ShaderParts fragment) {
+Program make_program(const std::string& name, const ShaderParts& vertex, const ShaderParts& fragment) {
     const Shader vertex_shader = compile(GL_VERTEX_SHADER, name, vertex);
     const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, name, fragment);
     Program program(CreateProgram());
@@ -71,6 +71,10 @@ void set_uniform(const Program& program, const char* name, const glm::vec3& valu
 }
 void set_uniform(const Program& program, const char* name, const glm::mat3& value) {
     ProgramUniformMatrix3fv(program.id(), location(program, name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void set_uniform(const Program& program, const char* name, std::span<const glm::vec4> values) {
+    ProgramUniform4fv(program.id(), location(program, name), static_cast<GLsizei>(values.size()),
+                      glm::value_ptr(values.front()));
 }
 void set_uniform(const Program& program, const char* name, const glm::mat4& value) {
     ProgramUniformMatrix4fv(program.id(), location(program, name), 1, GL_FALSE, glm::value_ptr(value));

@@ -2,11 +2,10 @@
 
 in vec3 world;
 
-uniform vec3 to_light;
-
-out float shown_visibility;
+layout(location = 0) out float shown_visibility;
+layout(location = 1) out float shown_need;
 
 void main() {
-    vec3 facet = facet_normal(world);
-    shown_visibility = dot(facet, to_light) > 0 ? visibility(receiver_at(world, facet)) : 0;
+    shown_visibility = light_at(world, facet_normal(world), to_light(world));
+    shown_need = needed_texel;
 }

@@ -6,16 +6,16 @@ namespace {
 
 class Hard final : public ShadowTechnique {
   public:
-    std::string_view shader() const override { return embedded::hard_glsl; }
-    std::string_view lookup_kind() const override { return "taps"; }
-    int lookups() const override { return 1; }
+    std::vector<std::string_view> shader() const override { return {embedded::hard_glsl}; }
+    double reach(const LightFrustum&, double) const override { return 0; }
+    Lookups lookups(const ShadowMap&) const override { return {0, 1, false}; }
 };
 
 }  // namespace
 
 TechniqueEntry hard_technique() {
     return {"hard", "one texel, unfiltered",
-            [](const TechniqueSettings&, const ShadowMapShape&) -> std::unique_ptr<ShadowTechnique> {
+            [](const TechniqueSettings&, const ShadowMap&, bool) -> std::unique_ptr<ShadowTechnique> {
                 return std::make_unique<Hard>();
             }};
 }

@@ -6,17 +6,17 @@ namespace {
 
 class None final : public ShadowTechnique {
   public:
-    std::string_view shader() const override { return embedded::none_glsl; }
+    std::vector<std::string_view> shader() const override { return {embedded::none_glsl}; }
     bool reads_map() const override { return false; }
-    std::string_view lookup_kind() const override { return "taps"; }
-    int lookups() const override { return 0; }
+    double reach(const LightFrustum&, double) const override { return 0; }
+    Lookups lookups(const ShadowMap&) const override { return {}; }
 };
 
 }  // namespace
 
 TechniqueEntry none_technique() {
     return {"none", "no shadows",
-            [](const TechniqueSettings&, const ShadowMapShape&) -> std::unique_ptr<ShadowTechnique> {
+            [](const TechniqueSettings&, const ShadowMap&, bool) -> std::unique_ptr<ShadowTechnique> {
                 return std::make_unique<None>();
             }};
 }

@@ -1,13 +1,11 @@
-// Percentage-closer filtering (Reeves et al. 1987) with a box: the share of the box around the receiver, in
+// Percentage-closer filtering (Reeves et al. 1987): the share of a box or a disk around the receiver, in
 // the plane across the light, whose texels leave it lit.
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "embedded/shaders.h"
-#include "renderer/techniques/technique.h"
+#include "renderer/techniques/taps.h"
 #include "stimuli/error.h"
-#include "stimuli/kernel.h"
 #include "stimuli/number.h"
 
 namespace stairstep {
@@ -18,81 +16,80 @@ constexpr double kNarrowestExact = 1e-3;
 /// Exact filtering beyond this many texels a side takes seconds a frame.
 constexpr double kWidestExact = 128;
 
+glm::dvec2 radius_texels(const ShadowMap& map) {
+    return map.filter_radius / map.shape.texel();
+}
+
+double width_texels(const ShadowMap& map) {
+    const glm::dvec2 radius = radius_texels(map);
+    return 2 * std::max(radius.x, radius.y);
+}
+
 class PcfExact final : public ShadowTechnique {
   public:
-    explicit PcfExact(const glm::dvec2& radius_texels)
-        : radius_texels_(glm::max(radius_texels, glm::dvec2(kNarrowestExact))) {
-        // A box of width 2r touches at most floor(2r) + 2 texels, and no more than 2r + 1 where 2r is whole.
-        // The law gives 2r = 6.94: 8 texels. The slack keeps rounding in 2r from costing a gather.
-        const double width = 2 * std::max(radius_texels_.x, radius_texels_.y);
-        gathers_per_side_ = static_cast<int>(std::ceil((width + 1) / 2 - 1e-6));
+    std::vector<std::string_view> shader() const override {
+        return {embedded::box_filter_glsl, embedded::pcf_exact_glsl};
     }
 
-    std::string_view shader() const override { return embedded::pcf_exact_glsl; }
+    double reach(const LightFrustum&, double filter_radius) const override { return filter_radius; }
 
-    void bind(const gl::Program& program) const override {
-        gl::set_uniform(program, "filter_radius", glm::vec2(radius_texels_));
-        gl::set_uniform(program, "gathers_per_side", gathers_per_side_);
+    void bind(const gl::Program& program, const ShadowMap& map) const override {
+        if (width_texels(map) > kWidestExact) {
+            throw InputError("--filter exact", "the filter is " + format_fixed(width_texels(map), 0) + " texels wide",
+                             "use another filter, a smaller map or a smaller --radius");
+        }
+        const glm::dvec2 radius = glm::max(radius_texels(map), glm::dvec2(kNarrowestExact));
+        gl::set_uniform(program, "filter_radius", glm::vec2(radius));
+        gl::set_uniform(program, "gathers_per_side", gathers_per_side(map));
     }
 
-    std::string_view lookup_kind() const override { return "gathers"; }
-    int lookups() const override { return gathers_per_side_ * gathers_per_side_; }
+    Lookups lookups(const ShadowMap& map) const override {
+        return {0, gathers_per_side(map) * gathers_per_side(map), true};
+    }
 
   private:
-    glm::dvec2 radius_texels_;
-    int gathers_per_side_;
+    static int gathers_per_side(const ShadowMap& map) {
+        // A box of width 2r touches at most floor(2r) + 2 texels, and no more than 2r + 1 where 2r is whole.
+        // The law gives 2r = 6.94: 8 texels. The slack keeps rounding in 2r from costing a gather.
+        const double width = std::max(width_texels(map), 2 * kNarrowestExact);
+        return static_cast<int>(std::ceil((width + 1) / 2 - 1e-6));
+    }
 };
 
 class PcfSampled final : public ShadowTechnique {
   public:
-    PcfSampled(const glm::dvec2& radius_texels, int side) : radius_texels_(radius_texels), side_(side) {
-        std::vector<glm::vec4> taps;
-        for (const KernelTap& tap : box_taps(side)) taps.emplace_back(tap.x, tap.y, tap.weight, 0);
-        taps_ = gl::make_buffer(std::as_bytes(std::span(taps)));
+    PcfSampled(FilterMode filter, int taps) : taps_(filter, taps, "--taps") {}
+
+    std::vector<std::string_view> shader() const override {
+        return {embedded::taps_glsl, embedded::pcf_sampled_glsl};
     }
 
-    std::string_view shader() const override { return embedded::pcf_sampled_glsl; }
+    double reach(const LightFrustum&, double filter_radius) const override { return filter_radius * taps_.reach(); }
 
-    void bind(const gl::Program& program) const override {
-        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, taps_.id());
-        gl::set_uniform(program, "filter_radius", glm::vec2(radius_texels_));
-        gl::set_uniform(program, "tap_count", lookups());
-        gl::set_uniform(program, "cell", 2.0f / static_cast<float>(side_));
+    void bind(const gl::Program& program, const ShadowMap& map) const override {
+        gl::set_uniform(program, "filter_radius", glm::vec2(radius_texels(map)));
+        taps_.bind(program, 0);
     }
 
-    std::string_view lookup_kind() const override { return "taps"; }
-    int lookups() const override { return side_ * side_; }
+    Lookups lookups(const ShadowMap&) const override { return {0, taps_.count(), false}; }
 
   private:
-    glm::dvec2 radius_texels_;
-    int side_;
-    gl::Buffer taps_;
+    TapSet taps_;
 };
 
-std::unique_ptr<ShadowTechnique> make_pcf(const TechniqueSettings& settings, const ShadowMapShape& shape) {
-    const glm::dvec2 radius_texels = settings.radius / shape.texel();
-    const double width = 2 * std::max(radius_texels.x, radius_texels.y);
-    const bool exact = settings.mode == FilterMode::exact ||
-                       (settings.mode == FilterMode::automatic && width <= kWidestAutomaticExact);
-    if (exact) {
-        if (width > kWidestExact) {
-            throw InputError("--filter exact", "the filter is " + format_fixed(width, 0) + " texels wide",
-                             "use --filter sampled, a smaller map or a smaller --radius");
-        }
-        return std::make_unique<PcfExact>(radius_texels);
+std::unique_ptr<ShadowTechnique> make_pcf(const TechniqueSettings& settings, const ShadowMap& first, bool) {
+    FilterMode filter = settings.filter;
+    if (filter == FilterMode::automatic) {
+        filter = width_texels(first) <= kWidestAutomaticExact ? FilterMode::exact : FilterMode::jittered;
     }
-    const int side = static_cast<int>(std::lround(std::sqrt(std::clamp(settings.taps, 0, 4096))));
-    if (settings.taps < 1 || side * side != settings.taps) {
-        throw InputError("--taps " + std::to_string(settings.taps), "isn't a square number from 1 to 4096",
-                         "use for example 25 or 64");
-    }
-    return std::make_unique<PcfSampled>(radius_texels, side);
+    if (filter == FilterMode::exact) return std::make_unique<PcfExact>();
+    return std::make_unique<PcfSampled>(filter, settings.filter_taps);
 }
 
 }  // namespace
 
 TechniqueEntry pcf_technique() {
-    return {"pcf", "percentage-closer filtering with the law's box", make_pcf};
+    return {"pcf", "percentage-closer filtering with a constant radius", make_pcf};
 }
 
 }  // namespace stairstep

@@ -5,28 +5,49 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "renderer/gl/program.h"
-#include "renderer/light_frustum.h"
+#include "renderer/shadow_map.h"
 
 namespace stairstep {
 
-/// How a filter is evaluated: exact weighs every texel, sampled takes taps; automatic is exact where the
-/// filter covers at most kWidestAutomaticExact texels.
-enum class FilterMode { automatic, exact, sampled };
+/// How a filter is evaluated.
+enum class FilterMode {
+    /// exact where the first map's filter covers at most kWidestAutomaticExact texels, else jittered.
+    automatic,
+    /// The box; every texel weighed by its area.
+    exact,
+    /// The box; taps in the middle of equal cells.
+    regular,
+    /// The box; the regular taps, shifted in each pixel by a random part of a cell.
+    jittered,
+    /// The disk; Poisson-disk taps.
+    poisson,
+    /// The disk; Poisson-disk taps turned by a random angle in each pixel.
+    rotated,
+};
+
+std::string_view name(FilterMode mode);
+/// Throws InputError that lists the names there are; `sampled` is another name of jittered.
+FilterMode filter_mode_named(const std::string& name);
 
 inline constexpr double kWidestAutomaticExact = 16;
 
 struct TechniqueSettings {
-    /// Half-width of the filter's support, world units across the light, > 0.
-    double radius = 0;
-    FilterMode mode = FilterMode::automatic;
-    /// For sampled: a square number in [1, 4096].
-    int taps = 25;
+    FilterMode filter = FilterMode::automatic;
+    /// Of a filter that takes taps, in [1, 4096]; a square number for regular and jittered.
+    int filter_taps = 25;
+    /// Of a blocker search that takes taps, likewise.
+    int search_taps = 25;
+    /// c > 0 of a box, half-width in texels: what filters that choose their own texels, and maps sized by the law, go by.
+    double law_slope = 3.47;
 };
 
-/// A technique, ready for maps of one shape.
+/// A technique, ready for a scene's maps.
 class ShadowTechnique {
   public:
     ShadowTechnique() = default;
@@ -34,26 +55,41 @@ class ShadowTechnique {
     ShadowTechnique(const ShadowTechnique&) = delete;
     ShadowTechnique& operator=(const ShadowTechnique&) = delete;
 
-    /// GLSL that defines `float visibility(Receiver)`; see shaders/receiver.glsl.
-    virtual std::string_view shader() const = 0;
-
-    /// Sets the technique's own uniforms and buffers; `program` contains its shader and draws next.
-    virtual void bind([[maybe_unused]] const gl::Program& program) const {}
+    /// GLSL that defines `float visibility(Receiver)`, in parts; see shaders/receiver.glsl.
+    virtual std::vector<std::string_view> shader() const = 0;
 
     /// Whether it reads the shadow map; without, no depth pass is drawn.
     virtual bool reads_map() const { return true; }
 
-    /// Kind of lookup and lookups a pixel: "gathers" and 16, say.
-    virtual std::string_view lookup_kind() const = 0;
-    virtual int lookups() const = 0;
+    /// Whether its filter's radius is its own in each pixel, and it writes `needed_texel`.
+    virtual bool measures_need() const { return false; }
+
+    /// How far from the receiver it looks, light plane. `filter_radius` is ShadowMap's.
+    virtual double reach(const LightFrustum& frustum, double filter_radius) const = 0;
+
+    /// Passes over a map just drawn, ahead of the lighting.
+    virtual void prepare([[maybe_unused]] const ShadowMap& map) {}
+
+    /// Sets the technique's own uniforms and buffers; `program` contains its shader and draws next. Texture units from 2
+    /// are free.
+    virtual void bind([[maybe_unused]] const gl::Program& program, [[maybe_unused]] const ShadowMap& map) const {}
+
+    /// Lookups a pixel, at most.
+    struct Lookups {
+        int search = 0;
+        int filter = 0;
+        /// What each is: gathers of four texels, or taps.
+        bool gathers = false;
+    };
+    virtual Lookups lookups(const ShadowMap& map) const = 0;
 };
 
 /// A line of the list of techniques.
 struct TechniqueEntry {
     std::string_view name;
     std::string_view summary;
-    /// Throws InputError for settings it can't take.
-    std::unique_ptr<ShadowTechnique> (*make)(const TechniqueSettings& settings, const ShadowMapShape& shape);
+    /// For maps that may come in any size, `first` being the first of them. Throws InputError for settings it can't take.
+    std::unique_ptr<ShadowTechnique> (*make)(const TechniqueSettings& settings, const ShadowMap& first, bool by_law);
 };
 
 }  // namespace stairstep

@@ -10,9 +10,10 @@ namespace stairstep {
 TechniqueEntry none_technique();
 TechniqueEntry hard_technique();
 TechniqueEntry pcf_technique();
+TechniqueEntry pcss_technique();
 
 std::span<const TechniqueEntry> techniques() {
-    static const std::array list{none_technique(), hard_technique(), pcf_technique()};
+    static const std::array list{none_technique(), hard_technique(), pcf_technique(), pcss_technique()};
     return list;
 }
 

@@ -1,0 +1,40 @@
+// Where a frame is drawn to, and how it is read back.
+#pragma once
+
+#include <vector>
+
+#include "renderer/gl/objects.h"
+#include "stimuli/io/image_file.h"
+
+namespace stairstep {
+
+/// What a frame's pixels are: the lit scene, sRGB-encoded, or visibility alone (1 where nothing is).
+enum class Show { colour, visibility };
+
+struct FrameTarget {
+    Show show = Show::colour;
+    int width = 0;
+    int height = 0;
+    int samples = 1;
+    gl::Texture colour;
+    /// Multisampled where the colour is.
+    gl::Texture depth;
+    gl::Framebuffer framebuffer;
+    /// Of more than one sample: drawn into first, then resolved into `framebuffer`.
+    gl::Texture multisample_colour;
+    gl::Framebuffer multisample_framebuffer;
+    /// Of one sample: the texel that each pixel needs (receiver.glsl), and a framebuffer with all three.
+    gl::Texture need;
+    gl::Framebuffer need_framebuffer;
+};
+
+/// samples ≥ 1 a pixel, for Show::colour alone: visibility is measured at pixel centres. Throws FailureError.
+FrameTarget make_frame_target(Show show, int width, int height, int samples);
+
+/// The picture that a colour target holds.
+Image read_colour(const FrameTarget& target);
+
+/// The visibility that a visibility target holds, row by row from the top, each in [0, 1].
+std::vector<float> read_visibility(const FrameTarget& target);
+
+}  // namespace stairstep

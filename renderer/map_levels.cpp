@@ -1,0 +1,80 @@
+#include "renderer/map_levels.h"
+
+#include <algorithm>
+#include <array>
+
+#include "embedded/shaders.h"
+
+namespace stairstep {
+namespace {
+
+constexpr int kGuards = 2 * kGuardTexels;
+constexpr int kCoarsest = 4;
+
+int divided_up(int a, int b) {
+    return (a + b - 1) / b;
+}
+
+}  // namespace
+
+std::vector<LevelPlace> level_places(int width, int height) {
+    // The finest at the left, then a column of the powers of two and one of three times those.
+    std::vector<LevelPlace> places{{1, kGuardTexels, kGuardTexels, width, height}};
+    std::array<int, 2> column{width + kGuards + kGuardTexels, width + divided_up(width, 2) + 2 * kGuards + kGuardTexels};
+    std::array<int, 2> row{kGuardTexels, kGuardTexels};
+    for (int level = 1; level < kMostLevels; ++level) {
+        if (std::max(places.back().width, places.back().height) <= kCoarsest) break;
+        const int factor = level_factor(level);
+        const int chain = level % 2 == 1 ? 0 : 1;
+        const LevelPlace place{factor, column[chain], row[chain], divided_up(width, factor),
+                               divided_up(height, factor)};
+        row[chain] += place.height + kGuards;
+        places.push_back(place);
+    }
+    return places;
+}
+
+glm::ivec2 levels_texture_size(int capacity) {
+    // Halves add up to no more than the whole, and each level may round up by one and has its guards.
+    const int slack = kMostLevels / 2 * (kGuards + 1);
+    return {capacity + divided_up(capacity, 2) + divided_up(capacity, 3) + 3 * kGuards, capacity + slack};
+}
+
+MapLevels::MapLevels(int capacity)
+    : size_(levels_texture_size(capacity)),
+      program_(gl::make_program("levels", {embedded::fullscreen_vert}, {embedded::map_level_frag})),
+      no_vertices_(gl::make_vertex_array()),
+      texture_(gl::make_texture(GL_R32F, size_.x, size_.y)),
+      framebuffer_(gl::make_framebuffer(texture_.id(), 0)) {
+    gl::TextureParameteri(texture_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl::TextureParameteri(texture_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl::TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl::TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void MapLevels::fill(const ShadowMap& map) {
+    places_ = level_places(map.shape.width, map.shape.height);
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
+    gl::Disable(GL_DEPTH_TEST);
+    gl::UseProgram(program_.id());
+    gl::BindVertexArray(no_vertices_.id());
+    gl::BindTextureUnit(0, map.memory.depth.id());
+    gl::set_uniform(program_, "map_size", glm::vec2(map.shape.width, map.shape.height));
+    for (const LevelPlace& place : places_) {
+        gl::Viewport(place.x - kGuardTexels, place.y - kGuardTexels, place.width + kGuards, place.height + kGuards);
+        gl::set_uniform(program_, "place", glm::vec2(place.x, place.y));
+        gl::set_uniform(program_, "factor", place.factor);
+        gl::DrawArrays(GL_TRIANGLES, 0, 3);
+    }
+}
+
+void MapLevels::bind(const gl::Program& program) const {
+    std::vector<glm::vec4> places;
+    for (const LevelPlace& place : places_) places.emplace_back(place.x, place.y, place.width, place.height);
+    gl::set_uniform(program, "level_place", places);
+    gl::set_uniform(program, "level_count", static_cast<int>(places.size()));
+    gl::set_uniform(program, "levels_scale", glm::vec2(1) / glm::vec2(size_));
+    gl::BindTextureUnit(2, texture_.id());
+}
+
+}  // namespace stairstep

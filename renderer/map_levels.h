@@ -1,0 +1,62 @@
+// Coarser levels of a shadow map, point-sampled from it.
+//
+// A level of factor f holds what a map of f times the texel would: the depth at the centre of each of its texels, which is
+// one of the finest map's texels. So a level is a shadow map in its own right, without bias, and costs a fetch a texel.
+// Factors are 1, 2, 3, 4, 6, 8, 12, 16 …: an even factor's grid is moved by half a fine texel, which puts its texels'
+// centres on the finest map's. All levels lie in one texture, as a shader can't choose between several.
+#pragma once
+
+#include <vector>
+
+#include "renderer/gl/program.h"
+#include "renderer/shadow_map.h"
+
+namespace stairstep {
+
+/// Most levels: factors up to 6144. The shader's array is as long.
+inline constexpr int kMostLevels = 24;
+
+/// Factor of level i ≥ 0.
+constexpr int level_factor(int level) {
+    return level == 0 ? 1 : level % 2 == 1 ? 1 << (level + 1) / 2 : 3 << (level / 2 - 1);
+}
+
+/// Where a level lies in its texture, guard texels left out.
+struct LevelPlace {
+    int factor = 1;
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+/// The levels of a map of this size, down to one whose longer side is at most 4 texels. They and the kGuardTexels around
+/// each don't overlap, and lie within levels_texture_size(max(width, height)).
+std::vector<LevelPlace> level_places(int width, int height);
+
+/// Width and height of the texture that holds the levels of any map of up to `capacity` texels a side.
+glm::ivec2 levels_texture_size(int capacity);
+
+class MapLevels {
+  public:
+    explicit MapLevels(int capacity);
+
+    /// Fills the levels from the map.
+    void fill(const ShadowMap& map);
+
+    const std::vector<LevelPlace>& places() const { return places_; }
+
+    /// Sets what shaders/pcss_levels.glsl needs of them, on texture unit 2.
+    void bind(const gl::Program& program) const;
+
+  private:
+    glm::ivec2 size_;
+    gl::Program program_;
+    gl::VertexArray no_vertices_;
+    /// R32F; empty texels hold 1.
+    gl::Texture texture_;
+    gl::Framebuffer framebuffer_;
+    std::vector<LevelPlace> places_;
+};
+
+}  // namespace stairstep

@@ -1,0 +1,88 @@
+// Percentage-closer soft shadows on levels of the map: each pixel filters at the coarsest one that the law allows its
+// radius, exactly, so that its cost is bounded however wide the penumbra, and without noise.
+//
+// A level of factor f is what a map of f times the texel would hold: the depth at the centre of each of its texels. Factors
+// are 1, 2, 3, 4, 6, 8, 12 …; an even one's texel centres lie on the finest map's where its grid is moved by half a texel
+// of that. box_filter.glsl goes before.
+
+layout(binding = 2) uniform sampler2D levels;
+uniform vec2 levels_scale;  // 1 / size of the texture
+// Where a level's texel (0, 0) lies, and its size.
+uniform vec4 level_place[24];
+uniform int level_count;
+
+// Half-width of a penumbra's filter, texels, for each unit between the stored depths of receiver and caster.
+uniform vec2 softness;
+// c: half-width in texels of the narrowest filter that hides its texels.
+uniform float law_slope;
+// Half-width of the search, in texels of its level, at most.
+uniform float search_radius;
+float factor_of(int level) { return level == 0 ? 1 : (level % 2 == 1 ? 1.0 : 1.5) * exp2(float((level + 1) / 2)); }
+
+// The last level whose factor is at most this.
+int level_within(float factor) {
+    int octave = int(floor(log2(max(factor, 1))));
+    int level = octave == 0 ? 0 : 2 * octave - 1 + int(factor >= 1.5 * exp2(float(octave)));
+    return min(level, level_count - 1);
+}
+
+// The first level whose factor is at least this.
+int level_beyond(float factor) {
+    int level = level_within(factor);
+    return min(level + int(factor_of(level) < factor), level_count - 1);
+}
+
+Receiver on_level(Receiver receiver, int level) {
+    float factor = factor_of(level);
+    receiver.texel = (receiver.texel - (level == 0 || level == 2 ? 0.0 : 0.5)) / factor;
+    receiver.slope *= factor;
+    return receiver;
+}
+
+// What lies over the box of this half-width, texels of the level, and blocks the receiver: its share of the box's area, and
+// the sum of its depths, each by its share.
+vec2 blocked_and_depth(Receiver receiver, int level, vec2 radius) {
+    vec4 place = level_place[level];
+    // Beyond the map nothing blocks; a box may be far larger than the map.
+    vec2 low = clamp(receiver.texel - radius, vec2(0), place.zw);
+    vec2 high = clamp(receiver.texel + radius, vec2(0), place.zw);
+    vec2 first = floor(low);
+    // Counted from the first texel: small numbers keep their precision.
+    vec2 begin = low - first;
+    vec2 end = high - first;
+    ivec2 gathers = ivec2(ceil(end / 2 - 1e-4));
+    // The first four texels share a corner at first + 1; textureGather returns them from the upper left clockwise.
+    vec2 corner = first + 1;
+    vec4 corner_depth = plane_depth(receiver, corner.x + vec4(-0.5, 0.5, 0.5, -0.5),
+                                    corner.y + vec4(0.5, 0.5, -0.5, -0.5));
+    vec2 sum = vec2(0);
+    for (int j = 0; j < gathers.y; ++j) {
+        vec2 height = overlap(2 * j, begin.y, end.y);
+        for (int i = 0; i < gathers.x; ++i) {
+            vec2 width = overlap(2 * i, begin.x, end.x);
+            vec2 step_texels = 2 * vec2(i, j);
+            vec4 stored = textureGather(levels, (place.xy + corner + step_texels) * levels_scale);
+            vec4 is_lit = lit(corner_depth + dot(receiver.slope, step_texels), stored);
+            vec4 blocked = (1 - is_lit) * width.xyyx * height.yyxx;
+            sum += vec2(blocked.x + blocked.y + blocked.z + blocked.w, dot(blocked, stored));
+        }
+    }
+    return sum / (4 * radius.x * radius.y);
+}
+
+float visibility(Receiver receiver) {
+    // Casters lie beyond depth 0: none further off to the side can be in the way.
+    vec2 search = max(softness * receiver.depth, 0.5);
+    int level = level_beyond(max(search.x, search.y) / search_radius);
+    vec2 found = blocked_and_depth(on_level(receiver, level), level, search / factor_of(level));
+    if (found.x < 1e-5) return 1;
+
+    // At contacts a texel's width is what the map can show.
+    vec2 radius = max(softness * (receiver.depth - found.y / found.x), 0.5);
+    // A texel of the pixel's own footprint is as fine as the screen can show.
+    float texel = max(min(radius.x * texel_side.x, radius.y * texel_side.y) / law_slope, footprint);
+    level = level_within(texel / max(texel_side.x, texel_side.y));
+    float blocked = blocked_and_depth(on_level(receiver, level), level, radius / factor_of(level)).x;
+    if (blocked > 0 && blocked < 1) needed_texel = texel;
+    return clamp(1 - blocked, 0, 1);
+}

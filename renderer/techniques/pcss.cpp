@@ -1,0 +1,92 @@
+// Percentage-closer soft shadows (Fernando 2005): percentage-closer filtering whose radius is, in each pixel, the penumbra
+// that the mean depth of what blocks the light there would throw.
+#include <algorithm>
+#include <cmath>
+
+#include "embedded/shaders.h"
+#include "renderer/map_levels.h"
+#include "renderer/techniques/taps.h"
+
+namespace stairstep {
+namespace {
+
+/// Blocker searches are this far at most, in texels of the level they are done on: 4 × 4 gathers.
+constexpr double kSearchRadius = 3.5;
+
+void set_softness(const gl::Program& program, const ShadowMap& map) {
+    gl::set_uniform(program, "softness", glm::vec2(map.shape.frustum.softness / map.shape.texel()));
+}
+
+/// Blockers of the farthest receiver may lie at the map's near end, depth 0.
+double search_reach(const LightFrustum& frustum) {
+    return frustum.softness * frustum.receiver_depth;
+}
+
+class PcssSampled final : public ShadowTechnique {
+  public:
+    PcssSampled(FilterMode filter, int filter_taps, int search_taps)
+        : filter_(filter, filter_taps, "--taps"), search_(filter, search_taps, "--search-taps") {}
+
+    std::vector<std::string_view> shader() const override { return {embedded::taps_glsl, embedded::pcss_glsl}; }
+
+    double reach(const LightFrustum& frustum, double) const override { return search_.reach() * search_reach(frustum); }
+
+    void bind(const gl::Program& program, const ShadowMap& map) const override {
+        set_softness(program, map);
+        filter_.bind(program, 0);
+        search_.bind(program, 1);
+    }
+
+    Lookups lookups(const ShadowMap&) const override { return {search_.count(), filter_.count(), false}; }
+
+  private:
+    TapSet filter_;
+    TapSet search_;
+};
+
+class PcssLevels final : public ShadowTechnique {
+  public:
+    PcssLevels(int capacity, double slope) : levels_(capacity), slope_(slope) {}
+
+    std::vector<std::string_view> shader() const override {
+        return {embedded::box_filter_glsl, embedded::pcss_levels_glsl};
+    }
+
+    bool measures_need() const override { return true; }
+
+    double reach(const LightFrustum& frustum, double) const override { return search_reach(frustum); }
+
+    void prepare(const ShadowMap& map) override { levels_.fill(map); }
+
+    void bind(const gl::Program& program, const ShadowMap& map) const override {
+        set_softness(program, map);
+        gl::set_uniform(program, "law_slope", static_cast<float>(slope_));
+        gl::set_uniform(program, "search_radius", static_cast<float>(kSearchRadius));
+        levels_.bind(program);
+    }
+
+    Lookups lookups(const ShadowMap&) const override {
+        // Levels are a factor of 2 apart at most.
+        const auto side = [](double radius) { return static_cast<int>(std::ceil((2 * radius + 1) / 2)); };
+        return {side(kSearchRadius) * side(kSearchRadius), side(2 * slope_) * side(2 * slope_), true};
+    }
+
+  private:
+    MapLevels levels_;
+    double slope_;
+};
+
+std::unique_ptr<ShadowTechnique> make_pcss(const TechniqueSettings& settings, const ShadowMap& first, bool by_law) {
+    FilterMode filter = settings.filter;
+    if (filter == FilterMode::automatic) filter = by_law ? FilterMode::exact : FilterMode::rotated;
+    if (filter == FilterMode::exact) return std::make_unique<PcssLevels>(first.capacity, settings.law_slope);
+    return std::make_unique<PcssSampled>(filter, settings.filter_taps, settings.search_taps);
+}
+
+}  // namespace
+
+TechniqueEntry pcss_technique() {
+    return {"pcss", "percentage-closer soft shadows of an area light", make_pcss};
+}
+
+}  // namespace stairstep
