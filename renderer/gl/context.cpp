@@ -48,7 +48,7 @@ bool is_software_renderer(std::string_view renderer) {
 }
 
 void Context::make_current() {
-    if (current && current != this) current->release();
+    if (current != this) release_any();
     bind();
     current = this;
     load_functions([this](const char* function) { return address_of(function); });
@@ -57,6 +57,10 @@ void Context::make_current() {
         description_.version = text_of(GL_VERSION);
         description_.is_software = is_software_renderer(description_.renderer);
     }
+}
+
+void Context::release_any() {
+    if (current) current->release();
 }
 
 void Context::release() {

@@ -60,6 +60,9 @@ class Context {
   protected:
     explicit Context(ContextKind kind) { description_.kind = kind; }
 
+    /// Leaves the calling thread without a context.
+    static void release_any();
+
   private:
     virtual void bind() = 0;
     virtual void unbind() = 0;
@@ -78,7 +81,8 @@ struct WindowOptions {
     bool is_visible = false;
 };
 
-/// A context of this kind, already current. Throws FailureError that says what was tried and what would do.
+/// A context of this kind, already current. Throws FailureError that says what was tried and what would do; the thread
+/// may then be without a context.
 std::unique_ptr<Context> make_context(ContextKind kind, const WindowOptions& window = {});
 
 /// Software rendering without a window or display (Mesa's OSMesa), already current. It has no picture of its

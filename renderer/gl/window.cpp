@@ -42,6 +42,8 @@ Window::Library::~Library() {
 }
 
 Window::Window(const WindowOptions& options) : Context(ContextKind::window) {
+    // GLFW makes a new window current to learn what it can do, which X11 ends the program for if EGL still has the thread.
+    release_any();
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);

@@ -1,10 +1,7 @@
 #include "renderer/gl/window.h"
 
 #define GLFW_INCLUDE_NONE
-#define GLFW_EXPOSE_NATIVE_X11
 #include <GLFW/glfw3.h>
-#include <GLFW/glfw3native.h>
-#include <X11/keysym.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,6 +11,17 @@
 
 #include "renderer/gl/functions.h"
 #include "tests/support/virtual_display.h"
+
+// Last, for its macros.
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/keysym.h>
+
+// As GLFW/glfw3native.h declares them, which wants the headers of all of X11's extensions.
+extern "C" {
+Display* glfwGetX11Display();
+Window glfwGetX11Window(GLFWwindow* window);
+}
 
 namespace stairstep {
 namespace {
@@ -77,7 +85,7 @@ TEST_F(WindowTest, KeysComeInOrder) {
     EXPECT_TRUE(comes_true([&] { return window_->is_down(gl::Key::escape); }));
     EXPECT_TRUE(window_->is_down(gl::Key{'A'}));
     EXPECT_FALSE(window_->is_down(gl::Key::space));
-    const std::vector<gl::KeyPress> presses = window_->take_key_presses();
+    const auto presses = window_->take_key_presses();
     ASSERT_EQ(presses.size(), 2u);
     EXPECT_EQ(presses[0].key, gl::Key{'A'});
     EXPECT_EQ(presses[1].key, gl::Key::escape);
