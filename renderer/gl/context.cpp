@@ -3,6 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#ifdef __SANITIZE_ADDRESS__
+#include <dlfcn.h>
+#include <link.h>
+
+#include <vector>
+#endif
+
 #include "renderer/gl/functions.h"
 #include "renderer/gl/window.h"
 #include "stimuli/error.h"
@@ -20,6 +27,26 @@ std::string text_of(GLenum property) {
     const GLubyte* text = GetString(property);
     return text ? reinterpret_cast<const char*>(text) : "";
 }
+
+#ifdef __SANITIZE_ADDRESS__
+/// Has every library loaded by now stay until the process ends, for the leak sanitizer: drivers are unloaded with their
+/// last context, and what only they still point at would count as leaked, by nobody that a report could name.
+void keep_libraries() {
+    std::vector<std::string> paths;
+    dl_iterate_phdr(
+        [](dl_phdr_info* library, size_t, void* list) {
+            static_cast<std::vector<std::string>*>(list)->emplace_back(library->dlpi_name);
+            return 0;
+        },
+        &paths);
+    for (const std::string& path : paths) {
+        void* handle = path.empty() ? nullptr : dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+        if (handle) dlclose(handle);
+    }
+}
+#else
+void keep_libraries() {}
+#endif
 
 }  // namespace
 
@@ -53,6 +80,7 @@ void Context::make_current() {
     current = this;
     load_functions([this](const char* function) { return address_of(function); });
     if (description_.version.empty()) {
+        keep_libraries();
         description_.renderer = text_of(GL_RENDERER);
         description_.version = text_of(GL_VERSION);
         description_.is_software = is_software_renderer(description_.renderer);
