@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,13 @@
 #include "tests/support/virtual_display.h"
 
 namespace stairstep {
+
+namespace gl {
+/// Names a test's kind in its output.
+inline void PrintTo(ContextKind kind, std::ostream* out) {
+    *out << name(kind);
+}
+}  // namespace gl
 
 constexpr std::array kContextKinds{gl::ContextKind::osmesa, gl::ContextKind::egl, gl::ContextKind::window};
 
