@@ -20,7 +20,7 @@ const char* error_name(GLenum error) {
 
 }  // namespace
 
-#define STAIRSTEP_DEFINE(name) decltype(&::gl##name) name = nullptr;
+#define STAIRSTEP_DEFINE(name) constinit thread_local decltype(&::gl##name) name = nullptr;
 STAIRSTEP_GL_FUNCTIONS(STAIRSTEP_DEFINE)
 #undef STAIRSTEP_DEFINE
 

@@ -1,5 +1,5 @@
 // The OpenGL functions that Stairstep calls, as a table filled at run time: gl::BindTexture(…) is
-// glBindTexture.
+// glBindTexture. Each thread has its own table, as it has its own current context (context.h).
 //
 // A new call is one more word in the list. Each entry has the exact type that glcorearb.h declares.
 #pragma once
@@ -30,14 +30,14 @@
 
 namespace stairstep::gl {
 
-#define STAIRSTEP_DECLARE(name) extern decltype(&::gl##name) name;
+#define STAIRSTEP_DECLARE(name) extern constinit thread_local decltype(&::gl##name) name;
 STAIRSTEP_GL_FUNCTIONS(STAIRSTEP_DECLARE)
 #undef STAIRSTEP_DECLARE
 
 using FunctionPointer = void (*)();
 
-/// Fills the table through a context's GetProcAddress; the context must be current. All contexts of a process
-/// share the table. Throws FailureError naming the first function that is missing.
+/// Fills the calling thread's table through a context's GetProcAddress; the context must be current.
+/// Throws FailureError naming the first function that is missing.
 void load_functions(const std::function<FunctionPointer(const char*)>& address_of);
 
 /// Throws FailureError if GL has recorded an error since the last call; `during` says what was being done.

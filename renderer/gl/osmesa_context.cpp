@@ -1,24 +1,19 @@
 // The one file that includes GL/osmesa.h: it drags in GL/gl.h, whose GL 1.x declarations clash with
-// glcorearb.h's, so the function table is reached through the declaration below alone.
+// glcorearb.h's, so nothing of functions.h is seen here.
 #include <GL/osmesa.h>
 
 #include <array>
 #include <cstdint>
-#include <functional>
 
 #include "renderer/gl/context.h"
 #include "stimuli/error.h"
 
 namespace stairstep::gl {
-
-using FunctionPointer = void (*)();
-void load_functions(const std::function<FunctionPointer(const char*)>& address_of);
-
 namespace {
 
 class OsmesaContext final : public Context {
   public:
-    OsmesaContext() {
+    OsmesaContext() : Context(ContextKind::osmesa) {
         constexpr std::array attributes{OSMESA_FORMAT,
                                         OSMESA_RGBA,
                                         OSMESA_PROFILE,
@@ -34,16 +29,24 @@ class OsmesaContext final : public Context {
         }
     }
 
-    ~OsmesaContext() override { OSMesaDestroyContext(context_); }
-
-    void make_current() override {
-        if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
-            throw FailureError("OSMesa", "can't make its context current", "check the installation of libosmesa6");
-        }
-        load_functions([](const char* name) { return reinterpret_cast<FunctionPointer>(OSMesaGetProcAddress(name)); });
+    ~OsmesaContext() override {
+        release();
+        OSMesaDestroyContext(context_);
     }
 
   private:
+    void bind() override {
+        if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
+            throw FailureError("OSMesa", "can't make its context current", "check the installation of libosmesa6");
+        }
+    }
+
+    void unbind() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+    FunctionPointer address_of(const char* function) override {
+        return reinterpret_cast<FunctionPointer>(OSMesaGetProcAddress(function));
+    }
+
     // OSMesa wants a default framebuffer, though nothing is ever drawn into it.
     static constexpr int kSide = 4;
     std::array<uint8_t, kSide * kSide * 4> pixels_{};

@@ -102,14 +102,17 @@ TEST(Includes, CoreOfStimuliNeedsNoLibrary) {
     }
 }
 
-TEST(Includes, OneFileSeesGlsOldHeader) {
-    int files = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(STAIRSTEP_SOURCE_DIR) / "renderer")) {
-        const std::string extension = entry.path().extension().string();
-        if (extension != ".h" && extension != ".cpp") continue;
-        files += read_file(entry.path()).find("#include <GL/osmesa.h>") != std::string::npos;
+TEST(Includes, OneFileEachSeesAContextsLibrary) {
+    // They can drag in GL/gl.h, which clashes with glcorearb.h.
+    for (const char* header : {"<GL/osmesa.h>", "<EGL/egl.h>", "<GLFW/glfw3.h>"}) {
+        int files = 0;
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(STAIRSTEP_SOURCE_DIR) / "renderer")) {
+            const std::string extension = entry.path().extension().string();
+            if (extension != ".h" && extension != ".cpp") continue;
+            files += read_file(entry.path()).find(std::string("#include ") + header) != std::string::npos;
+        }
+        EXPECT_EQ(files, 1) << header;
     }
-    EXPECT_LE(files, 1);
 }
 
 }  // namespace
