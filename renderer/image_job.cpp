@@ -8,6 +8,7 @@
 #include "renderer/comparison.h"
 #include "renderer/gl/context.h"
 #include "renderer/scene_import.h"
+#include "renderer/shadow_renderer.h"
 #include "renderer/techniques/techniques.h"
 #include "stimuli/error.h"
 #include "stimuli/io/json_file.h"
@@ -99,17 +100,22 @@ double median_of(const std::vector<FrameTime>& times, Measure measure) {
 }
 
 double frame_ms(const Rendering& rendering) {
-    return median_of(rendering.times, [](const FrameTime& t) { return t.depth.cpu_ms + t.lighting.cpu_ms; });
+    return median_of(rendering.times, [](const FrameTime& t) { return t.cpu_ms(); });
 }
 
+/// What is drawn.
+struct Subject {
+    const GpuScene& scene;
+    const SceneState& state;
+};
+
 /// All resolutions' frames in turn, so that whatever else the machine does slows each alike.
-void time_frames(std::vector<Rendering>& renderings, int frames, const GpuScene& scene, const FrameView& view,
-                 const FrameTarget& target) {
+void time_frames(std::vector<Rendering>& renderings, int frames, const Subject& subject, const FrameTarget& target) {
     gl::PassTimer timer;
     Progress progress("timing frames", frames + 1);
     for (int i = 0; i <= frames; ++i) {
         for (Rendering& rendering : renderings) {
-            const FrameTime time = draw_frame(scene, view, rendering.renderer, target, timer);
+            const FrameTime time = rendering.renderer.draw(subject.scene, subject.state, target, timer);
             // The first frame also compiles and touches memory for the first time.
             if (i > 0) rendering.times.push_back(time);
         }
@@ -117,41 +123,44 @@ void time_frames(std::vector<Rendering>& renderings, int frames, const GpuScene&
     }
 }
 
-Image draw_picture(const GpuScene& scene, const FrameView& view, const ShadowRenderer& renderer,
-                   const FrameTarget& target) {
+Image draw_picture(const Subject& subject, ShadowRenderer& renderer, const FrameTarget& target) {
     gl::PassTimer timer;
-    draw_frame(scene, view, renderer, target, timer);
+    renderer.draw(subject.scene, subject.state, target, timer);
     return target.show == Show::colour ? read_colour(target)
                                        : visibility_picture(read_visibility(target), target.width, target.height);
 }
 
-std::vector<float> draw_visibility(const GpuScene& scene, const FrameView& view, const ShadowRenderer& renderer,
-                                   const FrameTarget& target) {
+std::vector<float> draw_visibility(const Subject& subject, ShadowRenderer& renderer, const FrameTarget& target) {
     gl::PassTimer timer;
-    draw_frame(scene, view, renderer, target, timer);
+    renderer.draw(subject.scene, subject.state, target, timer);
     return read_visibility(target);
 }
 
 /// Draws the reference, measures every rendering against it and returns its picture.
-Image measure_errors(std::vector<Rendering>& renderings, const ImageJob& job, double radius,
-                     const LightFrustum& frustum, const GpuScene& scene, const FrameView& view) {
+Image measure_errors(std::vector<Rendering>& renderings, const ImageJob& job, const ShadowSettings& settings,
+                     const Subject& subject) {
     const FrameTarget target = make_frame_target(Show::visibility, job.width, job.height, 1);
-    const ShadowRenderer reference = make_shadow_renderer(
-        technique_named("pcf"), {radius, FilterMode::sampled, kTruthTaps}, map_of_size(frustum, kTruthSize));
+    ShadowSettings converged = settings;
+    converged.technique.filter = FilterMode::jittered;
+    converged.technique.filter_taps = kTruthTaps;
+    converged.fixed_size = kTruthSize;
+    ShadowRenderer reference(technique_named("pcf"), converged, subject.scene, subject.state,
+                             static_cast<double>(job.width) / job.height);
     Progress progress("drawing the truth", 2);
-    const std::vector<float> truth = draw_visibility(scene, view, reference, target);
+    const std::vector<float> truth = draw_visibility(subject, reference, target);
     for (Rendering& rendering : renderings) {
-        rendering.error = compare_visibility(draw_visibility(scene, view, rendering.renderer, target), truth);
+        rendering.error = compare_visibility(draw_visibility(subject, rendering.renderer, target), truth);
     }
     progress.advance();
     if (job.show == Show::visibility) return visibility_picture(truth, job.width, job.height);
-    return draw_picture(scene, view, reference, make_frame_target(job.show, job.width, job.height, job.samples));
+    return draw_picture(subject, reference, make_frame_target(job.show, job.width, job.height, job.samples));
 }
 
 ordered_json describe(const Rendering& rendering, const std::string& file, double radius, double pixel,
                       const Interval& law_range) {
-    const ShadowMapShape& shape = rendering.renderer.map.shape;
-    const ShadowTechnique& technique = *rendering.renderer.technique;
+    const ShadowMapShape& shape = rendering.renderer.map().shape;
+    const ShadowTechnique::Lookups lookups = rendering.renderer.technique().lookups(rendering.renderer.map());
+    const std::string lookup_kind = lookups.gathers ? "gathers" : "taps";
     // Of the two axes the one with the coarser texels: it is the one that shows.
     const double texel = std::max(shape.texel().x, shape.texel().y);
     const double texel_px = texel / pixel;
@@ -164,11 +173,15 @@ ordered_json describe(const Rendering& rendering, const std::string& file, doubl
     json["radius_in_texels"] = radius / texel;
     json["texel_px_on_screen"] = texel_px;
     json["extrapolates"] = texel_px < law_range.first || texel_px > law_range.second;
-    json["filter"] = technique.lookup_kind() == "gathers" ? "exact" : technique.lookups() > 1 ? "sampled" : "none";
-    json[technique.lookup_kind()] = technique.lookups();
+    json["filter"] = lookups.gathers ? "exact" : lookups.filter > 1 ? "sampled" : "none";
+    json[lookup_kind] = lookups.filter;
+    if (lookups.search > 0) json["search_" + lookup_kind] = lookups.search;
     json["frame_ms"] = frame_ms(rendering);
     json["depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.cpu_ms; });
     json["lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.cpu_ms; });
+    json["fit_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.fit_ms; });
+    json["prepare_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.prepare.cpu_ms; });
+    json["need_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.need.cpu_ms; });
     json["gpu_depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.gpu_ms; });
     json["gpu_lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.gpu_ms; });
     json["file"] = file;
@@ -202,27 +215,33 @@ ordered_json run_image_job(const ImageJob& job) {
     add_ground(scene, 8);
 
     const std::vector<glm::dvec3> points = points_of_interest(casters, job.light);
-    const FrameView view{framing_camera(points, job.camera, static_cast<double>(job.width) / job.height,
-                                        job.camera_distance, 8 * casters.diagonal()),
-                         casters.centre(), casters.diagonal()};
-    const double pixel = pixel_footprint(view.camera, distance_along_view(view.camera, casters.centre()), job.height);
-    double nearest = INFINITY;
-    for (const glm::dvec3& point : points) nearest = std::min(nearest, distance_along_view(view.camera, point));
-    const LightFrustum frustum = fit_light_frustum(scene, job.light, radius);
-    const SizeRequest sizing{slope, radius, 0,
-                             pixel_footprint(view.camera, std::max(nearest, view.camera.near), job.height),
-                             job.largest_size};
+    const double aspect = static_cast<double>(job.width) / job.height;
+    SceneState state;
+    state.camera = framing_camera(points, job.camera, aspect, job.camera_distance, 8 * casters.diagonal());
+    state.light = directional_light(job.light, job.light_half_tangent);
+    const double pixel = pixel_footprint(state.camera, distance_along_view(state.camera, casters.centre()), job.height);
 
-    const auto context = gl::make_osmesa_context();
+    const auto context = gl::make_context(job.context);
     const GpuScene gpu_scene = upload(scene);
+    const Subject subject{gpu_scene, state};
     const FrameTarget target = make_frame_target(job.show, job.width, job.height, job.samples);
+    ShadowSettings settings;
+    settings.technique = {job.filter, job.taps, job.search_taps, slope};
+    settings.radius = radius;
+    settings.largest_size = job.largest_size;
+    settings.fit = job.fit;
     std::vector<Rendering> renderings;
     for (const auto& resolution : job.resolutions) {
-        const ShadowMapShape shape = resolution ? map_of_size(frustum, *resolution) : map_by_law(frustum, sizing);
+        settings.fixed_size = resolution;
         renderings.push_back(
-            {label_of(resolution), make_shadow_renderer(technique, {radius, job.filter, job.taps}, shape), {}, {}, {}});
+            {label_of(resolution), ShadowRenderer(technique, settings, gpu_scene, state, aspect), {}, {}, {}});
     }
-    time_frames(renderings, job.frames, gpu_scene, view, target);
+    if (job.samples > 1) {
+        // A target of several samples can't measure what pixels need; one of one sample does so first.
+        const FrameTarget single = make_frame_target(job.show, job.width, job.height, 1);
+        for (Rendering& rendering : renderings) draw_picture(subject, rendering.renderer, single);
+    }
+    time_frames(renderings, job.frames, subject, target);
 
     ordered_json stats;
     stats["program"] = "stairstep-render " STAIRSTEP_VERSION;
@@ -237,18 +256,17 @@ ordered_json run_image_job(const ImageJob& job) {
                     {"texel_range_px", law.texel_range_px}};
     stats["radius"] = radius;
     stats["radius_px_on_screen"] = radius / pixel;
-    stats["light_extent"] = {frustum.extent().x, frustum.extent().y};
+    const glm::dvec2 extent = renderings.back().renderer.map().shape.frustum.extent();
+    stats["light_extent"] = {extent.x, extent.y};
     stats["renderer"] = gl::renderer_name();
     stats["image_width"] = job.width;
     stats["image_height"] = job.height;
     stats["samples"] = job.samples;
     stats["frames"] = job.frames;
 
-    for (Rendering& rendering : renderings) {
-        rendering.picture = draw_picture(gpu_scene, view, rendering.renderer, target);
-    }
+    for (Rendering& rendering : renderings) rendering.picture = draw_picture(subject, rendering.renderer, target);
     if (job.truth) {
-        const Image truth = measure_errors(renderings, job, radius, frustum, gpu_scene, view);
+        const Image truth = measure_errors(renderings, job, settings, subject);
         const fs::path file = labelled(job.out, "truth");
         write_png(file, truth);
         stats["truth"] = {

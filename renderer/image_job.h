@@ -8,8 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "renderer/frame.h"
+#include "renderer/frame_target.h"
+#include "renderer/gl/context.h"
+#include "renderer/light_frustum.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/view.h"
 
 namespace stairstep {
 
@@ -26,6 +29,9 @@ struct ImageJob {
     std::optional<double> radius;
     FilterMode filter = FilterMode::automatic;
     int taps = 25;
+    int search_taps = 25;
+    Fit fit = Fit::axis_aligned;
+    gl::ContextKind context = gl::ContextKind::osmesa;
     int largest_size = 8192;
     int width = 1280;
     int height = 720;
@@ -35,6 +41,8 @@ struct ImageJob {
     Direction camera{35, 24};
     double camera_distance = 1;
     Direction light{-50, 48};
+    /// Tangent of half the angle under which the light, a square, is seen, ≥ 0: how soft pcss draws. The sun's is 0.00465.
+    double light_half_tangent = 0.05;
     Show show = Show::colour;
     /// Whether to draw a converged reference and measure each rendering's visibility against it.
     bool truth = false;
@@ -45,7 +53,7 @@ struct ImageJob {
     std::filesystem::path stats;
 };
 
-/// Does the job with OSMesa and returns the statistics; the pictures are written first, each file whole or not at all.
+/// Does the job and returns the statistics; the pictures are written first, each file whole or not at all.
 /// Throws InputError and FailureError. Lengths are in world units unless they say px; `file` is relative to the
 /// statistics' own file. Keys:
 ///
@@ -61,8 +69,11 @@ struct ImageJob {
 ///     limited_by               fixed, law, screen (texels of a pixel) or largest_size
 ///     radius_in_texels, texel_px_on_screen    along the axis with the coarser texels, at the model's centre
 ///     extrapolates             whether that texel lies outside the law's range
-///     filter                   exact, sampled or none; then `gathers` or `taps`: lookups a pixel
+///     filter                   exact, sampled or none; then `gathers` or `taps`: lookups a pixel, and for pcss those of
+///                              its search, search_gathers or search_taps
 ///     frame_ms, depth_ms, lighting_ms         medians on the CPU's clock
+///     fit_ms, prepare_ms, need_ms             likewise: fitting the light's frustum, what a technique makes of its map, and
+///                                             what it finds the next frame needs
 ///     gpu_depth_ms, gpu_lighting_ms           the driver's
 ///     visibility_error         with `truth` only: the fields of VisibilityError
 nlohmann::ordered_json run_image_job(const ImageJob& job);

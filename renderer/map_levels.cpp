@@ -20,7 +20,8 @@ int divided_up(int a, int b) {
 std::vector<LevelPlace> level_places(int width, int height) {
     // The finest at the left, then a column of the powers of two and one of three times those.
     std::vector<LevelPlace> places{{1, kGuardTexels, kGuardTexels, width, height}};
-    std::array<int, 2> column{width + kGuards + kGuardTexels, width + divided_up(width, 2) + 2 * kGuards + kGuardTexels};
+    std::array<int, 2> column{width + kGuards + kGuardTexels,
+                              width + divided_up(width, 2) + 2 * kGuards + kGuardTexels};
     std::array<int, 2> row{kGuardTexels, kGuardTexels};
     for (int level = 1; level < kMostLevels; ++level) {
         if (std::max(places.back().width, places.back().height) <= kCoarsest) break;

@@ -30,6 +30,8 @@ struct ImageOptions {
     std::string resolution = "auto";
     std::string size = "1280x720";
     std::string filter = "auto";
+    std::string context = "osmesa";
+    std::string fit = "axes";
     std::string camera = "35,24";
     std::string light = "-50,48";
     std::string show = "colour";
@@ -112,9 +114,13 @@ ImageJob job_of(const ImageOptions& options) {
     }
     job.width = *width;
     job.height = *height;
-    job.filter = options.filter == "exact"     ? FilterMode::exact
-                 : options.filter == "sampled" ? FilterMode::sampled
-                                               : FilterMode::automatic;
+    job.filter = filter_mode_named(options.filter);
+    job.context = gl::context_kind_named(options.context);
+    job.fit = options.fit == "smallest" ? Fit::smallest_rectangle : Fit::axis_aligned;
+    if (!(job.light_half_tangent >= 0 && job.light_half_tangent <= 1)) {
+        throw InputError("--light-size " + format_number(job.light_half_tangent), "must be from 0 to 1",
+                         "use for example 0.05; the sun's is 0.00465");
+    }
     job.camera = direction_of("--camera", options.camera, &job.camera_distance);
     job.light = direction_of("--light", options.light, nullptr);
     job.show = options.show == "visibility" ? Show::visibility : Show::colour;
@@ -159,10 +165,23 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
     command->add_flag("--convert-kernel", job.convert_kernel, "accept a law of another kernel, by equal variance");
     command->add_option("--radius", job.radius,
                         "half-width of the filter, world units; default: 2.5 % of the model's diagonal");
-    command->add_option("--filter", options.filter, "exact weighs every texel, sampled takes --taps")
-        ->check(CLI::IsMember({"auto", "exact", "sampled"}))
+    command
+        ->add_option("--filter", options.filter,
+                     "exact weighs every texel; regular, jittered (or sampled), poisson and rotated take --taps")
+        ->check(CLI::IsMember({"auto", "exact", "regular", "jittered", "sampled", "poisson", "rotated"}))
         ->capture_default_str();
-    command->add_option("--taps", job.taps, "for sampled: a square number up to 4096")->capture_default_str();
+    command->add_option("--taps", job.taps, "up to 4096; a square number for regular and jittered")
+        ->capture_default_str();
+    command->add_option("--search-taps", job.search_taps, "of pcss's blocker search, likewise")->capture_default_str();
+    command
+        ->add_option("--light-size", job.light_half_tangent,
+                     "for pcss: tangent of half the angle that the light is seen under; the sun's is 0.00465")
+        ->capture_default_str();
+    command->add_option("--fit", options.fit, "the map lies along the light's axes, or as makes it smallest")
+        ->check(CLI::IsMember({"axes", "smallest"}))
+        ->capture_default_str();
+    command->add_option("--context", options.context, "osmesa (no display), egl (no display, GPU) or window")
+        ->capture_default_str();
     command->add_option("--largest-size", job.largest_size, "most texels a side for auto")
         ->check(CLI::Range(1, kLargestSide))
         ->capture_default_str();

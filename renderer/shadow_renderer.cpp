@@ -28,8 +28,7 @@ glm::dmat4 world_from_model(const GpuScene::Draw& draw, const SceneState& state)
 }
 
 /// Casters as the light sees them, into the map and the guard around it.
-void draw_depth_pass(const GpuScene& scene, const SceneState& state, const ShadowMap& map,
-                     const gl::Program& program) {
+void draw_depth_pass(const GpuScene& scene, const SceneState& state, const ShadowMap& map, const gl::Program& program) {
     const int width = map.shape.width;
     const int height = map.shape.height;
     const glm::dmat4 texel_from_world = stairstep::texel_from_world(map.shape);
@@ -143,9 +142,10 @@ ShadowRenderer::ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings
     map_.filter_radius = light_plane_radius(settings.radius, first.light, scene.middle);
     const LightFrustum frustum =
         fit_light_frustum(scene.extents, first, aspect, settings.fit, [&](auto&) { return map_.filter_radius; });
-    map_.shape = settings.fixed_size
-                     ? map_of_size(frustum, *settings.fixed_size)
-                     : map_by_law(frustum, {settings.technique.law_slope, map_.filter_radius, 0, 0, settings.largest_size});
+    map_.shape =
+        settings.fixed_size
+            ? map_of_size(frustum, *settings.fixed_size)
+            : map_by_law(frustum, {settings.technique.law_slope, map_.filter_radius, 0, 0, settings.largest_size});
     technique_ = entry.make(settings.technique, map_, !settings.fixed_size);
     const std::string name(entry.name);
     colour_program_ = lighting_program(name + " lighting", *technique_, embedded::lighting_frag);
@@ -175,10 +175,9 @@ ShadowMapShape ShadowRenderer::choose_shape(const LightFrustum& frustum, const C
 
 void ShadowRenderer::fit(const GpuScene& scene, const SceneState& state, double aspect, int height_px) {
     map_.filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
-    const LightFrustum frustum =
-        fit_light_frustum(scene.extents, state, aspect, settings_.fit, [&](const LightFrustum& unfitted) {
-            return technique_->reach(unfitted, map_.filter_radius);
-        });
+    const LightFrustum frustum = fit_light_frustum(
+        scene.extents, state, aspect, settings_.fit,
+        [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, map_.filter_radius); });
     map_.shape = choose_shape(frustum, state.camera, height_px);
 }
 

@@ -15,14 +15,14 @@
     X(BindVertexArray) X(BlitNamedFramebuffer) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) \
     X(ClipControl) X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateQueries) \
     X(CreateShader) X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) \
-    X(DeleteQueries) X(DeleteShader) X(DeleteTextures) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays) \
+    X(DeleteQueries) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(Disable) X(DrawArrays) \
     X(DrawElements) X(Enable) X(EnableVertexArrayAttrib) X(EndQuery) X(Finish) X(GenerateTextureMipmap) X(GetError) \
     X(GetIntegerv) X(GetNamedBufferSubData) X(GetProgramInfoLog) X(GetProgramiv) X(GetQueryObjectui64v) \
     X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage) X(GetUniformLocation) X(LinkProgram) \
     X(NamedBufferStorage) X(NamedFramebufferDrawBuffer) X(NamedFramebufferDrawBuffers) X(NamedFramebufferReadBuffer) \
     X(NamedFramebufferTexture) X(PixelStorei) X(ProgramUniform1f) X(ProgramUniform1i) X(ProgramUniform2f) \
-    X(ProgramUniform2i) X(ProgramUniform3f) X(ProgramUniform4fv) X(ProgramUniformMatrix3fv) \
-    X(ProgramUniformMatrix4fv) X(Scissor) X(ShaderSource) X(TextureBarrier) X(TextureParameterfv) \
+    X(ProgramUniform3f) X(ProgramUniform4fv) X(ProgramUniformMatrix3fv) \
+    X(ProgramUniformMatrix4fv) X(Scissor) X(ShaderSource) X(TextureParameterfv) \
     X(TextureParameteri) X(TextureStorage2D) X(TextureStorage2DMultisample) X(TextureSubImage2D) X(UseProgram) \
     X(VertexArrayAttribBinding) X(VertexArrayAttribFormat) X(VertexArrayElementBuffer) X(VertexArrayVertexBuffer) \
     X(Viewport)

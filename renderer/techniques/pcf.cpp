@@ -60,9 +60,7 @@ class PcfSampled final : public ShadowTechnique {
   public:
     PcfSampled(FilterMode filter, int taps) : taps_(filter, taps, "--taps") {}
 
-    std::vector<std::string_view> shader() const override {
-        return {embedded::taps_glsl, embedded::pcf_sampled_glsl};
-    }
+    std::vector<std::string_view> shader() const override { return {embedded::taps_glsl, embedded::pcf_sampled_glsl}; }
 
     double reach(const LightFrustum&, double filter_radius) const override { return filter_radius * taps_.reach(); }
 

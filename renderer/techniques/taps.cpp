@@ -33,7 +33,7 @@ int side_of(int count, const char* option) {
 
 std::string_view name(FilterMode mode) {
     switch (mode) {
-        case FilterMode::automatic: return "automatic";
+        case FilterMode::automatic: return "auto";
         case FilterMode::exact: return "exact";
         case FilterMode::regular: return "regular";
         case FilterMode::jittered: return "jittered";
