@@ -209,7 +209,7 @@ TEST(ThresholdPosterior, MultipliesTheLikelihoodsOfThePsychometricFunction) {
     for (const double beta : {0.8, 3.0, 12.0}) {
         for (const double delta : {1e-6, 0.02, 0.3}) {
             const PsychometricShape shape{beta, 0.5, delta, 0.82};
-            const std::vector<double> table = location_log_likelihood(track, beta, delta, -1.5, 1.5, 100);
+            const std::vector<double> table = location_log_likelihood(track, beta, delta, {-1.5, 1.5, 100});
             for (size_t i = 0; i < table.size(); ++i) {
                 const double location = -1.5 + 3.0 * static_cast<double>(i) / 99;
                 double sum = 0;
