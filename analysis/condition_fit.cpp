@@ -14,7 +14,7 @@ namespace {
 
 /// Weights below are worth a warning of their own.
 constexpr double kLowWeight = 0.5;
-/// Weights that are worth fewer than this share of equal ones make Knapp and Hartung's interval too narrow.
+/// Weights that are worth fewer than this share of equal ones make intervals that trust them too narrow.
 constexpr double kFewObservers = 0.5;
 /// From how many observers on BCa's intervals are near what they say.
 constexpr size_t kObserversForBca = 20;
@@ -38,14 +38,14 @@ void estimate_form(ConditionLaw& law, const FittedCondition& condition, std::vec
         law.form_method = "not estimated: fewer than two observers have thresholds at two texel sizes";
         return;
     }
-    const RandomEffects intercept = fit_random_effects(intercepts);
-    const RandomEffects exponent = fit_random_effects(exponents);
+    const RandomEffects intercept = estimate_random_effects(intercepts);
+    const RandomEffects exponent = estimate_random_effects(exponents);
     law.intercept_px = intercept.mean;
-    law.intercept_ci95 = intercept.ci95;
+    law.intercept_ci95 = sandwich_interval(intercepts, intercept).ci95;
     law.exponent = exponent.mean;
-    law.exponent_ci95 = exponent.ci95;
-    law.form_method =
-        "random-effects means over " + std::to_string(intercepts.size()) + " observers (REML); Knapp-Hartung t";
+    law.exponent_ci95 = sandwich_interval(exponents, exponent).ci95;
+    law.form_method = "random-effects means over " + std::to_string(intercepts.size()) +
+                      " observers (REML); sandwich errors with Satterthwaite's t";
 }
 
 void flag_largest(std::vector<LeftOut>& table) {
@@ -143,12 +143,14 @@ std::string interval_warning(SlopeMethod method, const std::vector<double>& weig
     if (method != SlopeMethod::mean_t && method != SlopeMethod::linear_t && 1 / squares < kFewObservers * n) {
         return "few observers have most of the weight: " + format_number(n) + " count as " +
                format_fixed(1 / squares, 1) +
-               "; the interval may be too narrow, --method mean-t doesn't depend on weights";
+               (method == SlopeMethod::sandwich
+                    ? "; the interval allows for that, but --method mean-t may be narrower"
+                    : "; the interval may be too narrow, --method sandwich or mean-t doesn't trust weights");
     }
     if (method == SlopeMethod::bca && weights.size() < kObserversForBca) {
         return "bca with " + format_number(n) +
                " observers holds the slope less often than 95 %, about 80 % with five and 90 % with ten: the bootstrap "
-               "knows no n - 1; --method knapp-hartung does";
+               "knows no n - 1; --method sandwich does";
     }
     return "";
 }

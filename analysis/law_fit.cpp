@@ -8,6 +8,7 @@
 #include "analysis/comparison.h"
 #include "analysis/condition_fit.h"
 #include "analysis/robust_mean.h"
+#include "analysis/statistics.h"
 #include "analysis/worst_case.h"
 #include "stimuli/error.h"
 #include "stimuli/number.h"
@@ -41,6 +42,12 @@ void state_worst_case(Law& law, const std::vector<FittedCondition>& conditions, 
         if (options.robust) {
             const RobustMean mean = huber_mean(all);
             means.push_back({mean.mean, mean.se});
+        } else {
+            // An error that gives the condition's own interval with worst_case's degrees of freedom: n − 1.
+            const RandomEffects fit = estimate_random_effects(all);
+            const Interval ci95 = sandwich_interval(all, fit).ci95;
+            const double t = t_quantile(0.975, static_cast<double>(all.size()) - 1);
+            means.push_back({fit.mean, (ci95.second - ci95.first) / 2 / t});
         }
     }
     if (law.conditions.size() == 1) {
@@ -55,7 +62,7 @@ void state_worst_case(Law& law, const std::vector<FittedCondition>& conditions, 
                        " conditions' slopes (each: " + worst->slope_method +
                        "); its interval, over all conditions: lower end simultaneous (max-t, critical value " +
                        format_fixed(limits.critical_value, 2) + "), upper end the largest of theirs, from " +
-                       (options.robust ? "Huber means" : "Knapp-Hartung t");
+                       (options.robust ? "Huber means" : "sandwich errors with their t");
 }
 
 /// Why there is no law, for people.
@@ -74,7 +81,7 @@ void require_consistent(const LawFitOptions& options) {
         throw InputError("--method " + method, "needs replicates", "use --bootstrap 2000");
     }
     if (options.robust && !has_robust_form(options.method)) {
-        throw InputError("--robust", "there is no robust form of " + method, "use --method knapp-hartung or bca");
+        throw InputError("--robust", "there is no robust form of " + method, "use --method sandwich or bca");
     }
 }
 

@@ -91,12 +91,12 @@ double maximise_over_tau_squared(double largest, const F& f) {
             best_value = value;
         }
     }
-    // Brent's method: f is smooth, and half of a double's digits are what its maximum can be told to.
+    // Brent's method, in units of the bracket: f is smooth, and half of a double's digits are what its maximum can be told to.
     constexpr int kBits = std::numeric_limits<double>::digits / 2 + 2;
-    const double inner =
-        boost::math::tools::brent_find_minima([&](double x) { return -f(x); }, at(std::max(0, best - 1)),
-                                              at(std::min(kSteps, best + 1)), kBits)
-            .first;
+    const double high = at(std::min(kSteps, best + 1));
+    const double inner = high * boost::math::tools::brent_find_minima([&](double x) { return -f(high * x); },
+                                                                      at(std::max(0, best - 1)) / high, 1.0, kBits)
+                                    .first;
     return f(inner) > f(0.0) ? inner : 0;
 }
 
@@ -166,7 +166,7 @@ RandomEffects random_effects_at(std::span<const Effect> effects, double tau) {
     return with_interval(at_tau_squared(effects, tau * tau), effects.size());
 }
 
-RandomEffects fit_random_effects(std::span<const Effect> effects, TauMethod method) {
+RandomEffects estimate_random_effects(std::span<const Effect> effects, TauMethod method) {
     assert(!effects.empty());
     const double least = least_variance(effects);
     const double tau_squared = maximise_over_tau_squared(largest_tau_squared(effects), [&](double candidate) {
@@ -174,7 +174,37 @@ RandomEffects fit_random_effects(std::span<const Effect> effects, TauMethod meth
                    ? restricted_log_likelihood(effects, candidate, least)
                    : log_likelihood_at(effects, weighted_mean(effects, candidate, least), candidate, least);
     });
-    return with_interval(at_tau_squared(effects, tau_squared), effects.size());
+    return at_tau_squared(effects, tau_squared);
+}
+
+RandomEffects fit_random_effects(std::span<const Effect> effects, TauMethod method) {
+    return with_interval(estimate_random_effects(effects, method), effects.size());
+}
+
+SandwichInterval sandwich_interval(std::span<const Effect> effects, const RandomEffects& fit) {
+    assert(effects.size() >= 2 && fit.weight.size() == effects.size());
+    double variance = 0;
+    double sum = 0;
+    double squares = 0;
+    double weights_squared = 0;
+    for (size_t j = 0; j < effects.size(); ++j) {
+        const double p = fit.weight[j];
+        // One observer's estimate to all digits has residuals of rounding errors: a share that leaves some.
+        const double a = p * p / std::max(1 - p, 1e-9);
+        const double e = effects[j].value - fit.mean;
+        variance += a * e * e;
+        sum += a;
+        squares += a * a;
+        weights_squared += p * p;
+    }
+    // With cov(e_i, e_j) = (1/Σw)·([i = j]/p_j − 1): E(V) = 1/Σw and Var(V) = 2·Σ a_i a_j cov_ij².
+    const double largest = static_cast<double>(effects.size()) - 1;
+    SandwichInterval result;
+    result.se = std::sqrt(variance);
+    result.degrees_of_freedom = std::clamp(1 / (weights_squared + sum * sum - squares), 1.0, largest);
+    const double half_width = t_quantile(0.975, result.degrees_of_freedom) * result.se;
+    result.ci95 = {fit.mean - half_width, fit.mean + half_width};
+    return result;
 }
 
 double profile_bound(size_t observers) {
@@ -187,7 +217,7 @@ double profile_bound(size_t observers) {
 ProfileInterval profile_likelihood(std::span<const Effect> effects, double bound) {
     assert(effects.size() >= 2);
     const double least = least_variance(effects);
-    const RandomEffects ml = fit_random_effects(effects, TauMethod::ml);
+    const RandomEffects ml = estimate_random_effects(effects, TauMethod::ml);
     const double top = log_likelihood_at(effects, ml.mean, ml.tau * ml.tau, least);
     const auto within = [&](double mean) {
         const double tau_squared = maximise_over_tau_squared(

@@ -14,7 +14,7 @@ namespace stairstep {
 namespace {
 
 /// Spacing of T's grid to begin with, log10 units, and the most points it may have.
-constexpr double kGrain = 0.02;
+constexpr double kGrain = 0.03;
 constexpr double kMostPoints = 600;
 /// The same for strengths over more than a dozen decades.
 constexpr double kWideGrain = 0.06;
