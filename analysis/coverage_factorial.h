@@ -11,6 +11,8 @@
 // population share their luck with each other; within a cell all studies are independent, which is what a cell's standard error
 // is about.
 //
+// Study i of the p-th population (of all 18) has the seed Random(seed).stream(p).stream(i).bits() >> 1.
+//
 // Anchor: each part's estimates are those of `fit_law` on its trials.
 #pragma once
 
