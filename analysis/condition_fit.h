@@ -42,9 +42,9 @@ struct FittedCondition {
     SlopeData data;
 };
 
-/// Why `method`'s interval may hold the slope less often than it says, for people; empty where nothing is known against it
-/// (docs/coverage.md). `weights` are the observers' in the random-effects mean, and sum to 1.
-std::string interval_warning(SlopeMethod method, const std::vector<double>& weights);
+/// Why the interval of `estimate`, made by `method`, may hold the slope less often than it says, for people; empty where nothing
+/// is known against it (docs/coverage.md). `weights` are the observers' in the random-effects mean, and sum to 1.
+std::string interval_warning(SlopeMethod method, const SlopeEstimate& estimate, const std::vector<double>& weights);
 
 /// Each observer's law. Who could not be fitted is left out and named in `warnings`.
 FittedCondition fit_observers(const ConditionKey& key, const ThresholdsByObserver& observers, bool robust,

@@ -53,7 +53,10 @@ StudyOutcome outcome_of(const std::vector<std::vector<Threshold>>& by_observer, 
     }
     std::vector<Effect> effects;
     for (const ObserverSlope& o : data.observers) effects.push_back({o.ln_slope, o.ln_slope_se});
-    outcome.warned = !interval_warning(LawFitOptions{}.method, fit_random_effects(effects).weight).empty();
+    const SlopeMethod method = LawFitOptions{}.method;
+    const auto estimate = std::find_if(outcome.estimates.begin(), outcome.estimates.end(),
+                                       [&](const SlopeEstimate& e) { return e.name == name(method); });
+    outcome.warned = !interval_warning(method, *estimate, estimate_random_effects(effects).weight).empty();
     return outcome;
 }
 

@@ -185,7 +185,7 @@ SandwichInterval sandwich_interval(std::span<const Effect> effects, const Random
     assert(effects.size() >= 2 && fit.weight.size() == effects.size());
     double variance = 0;
     double sum = 0;
-    double squares = 0;
+    double pairs = 0;  // Σ_{i≠j} a_i a_j
     double weights_squared = 0;
     for (size_t j = 0; j < effects.size(); ++j) {
         const double p = fit.weight[j];
@@ -193,15 +193,15 @@ SandwichInterval sandwich_interval(std::span<const Effect> effects, const Random
         const double a = p * p / std::max(1 - p, 1e-9);
         const double e = effects[j].value - fit.mean;
         variance += a * e * e;
+        pairs += 2 * a * sum;
         sum += a;
-        squares += a * a;
         weights_squared += p * p;
     }
     // With cov(e_i, e_j) = (1/Σw)·([i = j]/p_j − 1): E(V) = 1/Σw and Var(V) = 2·Σ a_i a_j cov_ij².
     const double largest = static_cast<double>(effects.size()) - 1;
     SandwichInterval result;
     result.se = std::sqrt(variance);
-    result.degrees_of_freedom = std::clamp(1 / (weights_squared + sum * sum - squares), 1.0, largest);
+    result.degrees_of_freedom = std::clamp(1 / (weights_squared + pairs), 1.0, largest);
     const double half_width = t_quantile(0.975, result.degrees_of_freedom) * result.se;
     result.ci95 = {fit.mean - half_width, fit.mean + half_width};
     return result;

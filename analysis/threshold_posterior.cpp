@@ -354,7 +354,8 @@ ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, 
             ((sum.at_low_edge > kLittle && window.location.low > all_locations.low) ||
              (sum.at_high_edge > kLittle && window.location.high < all_locations.high))) {
             next.location = around(sum.location_mean, window.location.width(), 0, all_locations);
-            next.points = even_points(next.location.width(), grain);
+            // Half a step more: rounding must not decide how often the step goes into a multiple of itself.
+            next.points = even_points(next.location.width() + grain / 2, grain);
             settled = false;
         }
         if (settled) {

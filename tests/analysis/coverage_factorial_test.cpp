@@ -57,7 +57,8 @@ TEST(CoverageFactorial, PartsAreFittedAsStudies) {
                                                 trial.condition.texel_px) != cell.texels_px.end();
                 if (has_size && std::stoi(trial.observer.substr(3)) <= cell.observers) part.push_back(trial);
             }
-            for (const SlopeEstimate& e : fit_law(part, 0.82, "part").law.conditions[0].estimates) {
+            const LawFit fit = fit_law(part, 0.82, "part");
+            for (const SlopeEstimate& e : fit.law.conditions[0].estimates) {
                 bias[e.name] += std::log(e.value / 3.47) / 2;
             }
         }
