@@ -267,6 +267,14 @@ std::string coverage_document(const CsvTable& csv, const std::string& command) {
         method + ", lies in .93 to .97 in " + std::to_string(cells - failures - near) +
         " cells, outside by two standard\nerrors at most in " + std::to_string(near) + " (~), and outside by more in " +
         std::to_string(failures) + " (**!**).\n\n";
+    text +=
+        "`fit` warns where it knows that its interval may hold c less often: where it is so narrow that the observers' "
+        "shapes\n"
+        "count, where few observers have most of the weight, and for bca with fewer than 40 observers. The last column "
+        "of the\n"
+        "third table is the share of studies in which it did. Bootstraps are made of part of the studies, as the last "
+        "table\n"
+        "says. Cells of one row share their simulated observers and are not independent of each other.\n\n";
     text += to_markdown(matrix(rows, method, "coverage", "Coverage of " + method,
                                [](const Row& row) {
                                    return format_fixed(row.coverage, 3) + " ± " + format_fixed(row.coverage_se, 3) +
