@@ -42,7 +42,7 @@ void state_worst_case(Law& law, const std::vector<FittedCondition>& conditions, 
         if (options.robust) {
             const RobustMean mean = huber_mean(all);
             means.push_back({mean.mean, mean.se});
-        } else {
+        } else if (options.method != SlopeMethod::knapp_hartung) {
             // An error that gives the condition's own interval with worst_case's degrees of freedom: n − 1.
             const RandomEffects fit = estimate_random_effects(all);
             const Interval ci95 = sandwich_interval(all, fit).ci95;
@@ -62,7 +62,9 @@ void state_worst_case(Law& law, const std::vector<FittedCondition>& conditions, 
                        " conditions' slopes (each: " + worst->slope_method +
                        "); its interval, over all conditions: lower end simultaneous (max-t, critical value " +
                        format_fixed(limits.critical_value, 2) + "), upper end the largest of theirs, from " +
-                       (options.robust ? "Huber means" : "sandwich errors with their t");
+                       (options.robust                                 ? "Huber means"
+                        : options.method == SlopeMethod::knapp_hartung ? "Knapp-Hartung t"
+                                                                       : "sandwich errors with their t");
 }
 
 /// Why there is no law, for people.
