@@ -114,7 +114,7 @@ std::string factorial_command(const Options& options, const FactorialSettings& s
            " --bootstrap " + std::to_string(settings.replicates) + " --bootstrap-studies " +
            std::to_string(settings.bootstrap_studies) + (options.design.empty() ? "" : " --design " + options.design) +
            " --p " + format_number(settings.p_threshold) + " --seed " + std::to_string(settings.seed) +
-           " --out coverage.csv --markdown docs/coverage.md";
+           " --out docs/coverage.csv --markdown docs/coverage.md";
 }
 
 void print_factorial(const Options& options) {
