@@ -154,7 +154,8 @@ std::string interval_warning(SlopeMethod method, const SlopeEstimate& estimate, 
     const double half_width = std::log(estimate.ci95.second / estimate.ci95.first) / 2;
     if (half_width > 0 && half_width < kNarrow) {
         return "the interval is narrow, +-" + format_fixed(100 * half_width, 1) +
-               " %: steepness and lapses unlike the usual can move c by 1 to 2 %, and intervals of that width then hold it "
+               " %: steepness and lapses unlike the usual can move c by 1 to 2 %, and intervals of that width then "
+               "hold it "
                "in 92 "
                "to 95 % rather than 95 %";
     }
