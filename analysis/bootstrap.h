@@ -5,7 +5,7 @@
 // - BCa (Efron 1987): observers are drawn with replacement and the estimate is made again, B times. The share of replicates below
 //   the estimate gives the bias correction z0, leaving one observer out after the other the acceleration
 //   a = Σ d_j³/(6·(Σ d_j²)^{3/2}) with d_j the mean of the leave-one-out estimates less the j-th; the ends are the quantiles at
-//   Φ(z0 + (z0 + z_p)/(1 − a·(z0 + z_p))). With ten observers it covers .89–.91 rather than .95: the bootstrap knows no n − 1, and
+//   Φ(z0 + (z0 + z_p)/(1 − a·(z0 + z_p))). With 5, 10 and 20 observers it covers .84, .89 and .91 rather than .95 (docs/coverage.md): the bootstrap knows no n − 1, and
 //   no correction of BCa's replaces Student's t. It needs no normality and no measurement errors, which is why it is here.
 // - Studentised parametric: studies are drawn from what was fitted; the distribution of (μ* − μ̂)/se* replaces Student's t.
 //

@@ -65,6 +65,20 @@ bool MethodCoverage::is_on_target() const {
     return coverage + 2 * coverage_se >= 0.93 && coverage - 2 * coverage_se <= 0.97;
 }
 
+std::vector<MethodCoverage> count_coverage(const std::vector<std::vector<SlopeEstimate>>& studies, double true_slope) {
+    std::vector<std::string> methods;
+    for (const std::vector<SlopeEstimate>& estimates : studies) {
+        for (const SlopeEstimate& estimate : estimates) {
+            if (std::find(methods.begin(), methods.end(), estimate.name) == methods.end()) {
+                methods.push_back(estimate.name);
+            }
+        }
+    }
+    std::vector<MethodCoverage> result;
+    for (const std::string& method : methods) result.push_back(count(method, studies, true_slope));
+    return result;
+}
+
 std::vector<CoverageCell> usual_cells(const Design& design) {
     std::vector<CoverageCell> cells{{"usual study", usual_study(design)}};
     const auto add = [&](const char* name, auto change) {
@@ -94,18 +108,8 @@ CellCoverage coverage_of(const CoverageCell& cell, const CoverageSettings& setti
         studies[i] = estimates_of(cell.study, Random(settings.seed).stream(i).bits() >> 1, settings);
         done();
     });
-    CellCoverage result{cell.name, {}, 0};
-    std::vector<std::string> methods;
-    for (const std::vector<SlopeEstimate>& estimates : studies) {
-        result.failed += estimates.empty();
-        for (const SlopeEstimate& estimate : estimates) {
-            if (std::find(methods.begin(), methods.end(), estimate.name) == methods.end()) {
-                methods.push_back(estimate.name);
-            }
-        }
-    }
-    const double truth = cell.study.true_slope(Pattern::step, 1);
-    for (const std::string& method : methods) result.methods.push_back(count(method, studies, truth));
+    CellCoverage result{cell.name, count_coverage(studies, cell.study.true_slope(Pattern::step, 1)), 0};
+    for (const std::vector<SlopeEstimate>& estimates : studies) result.failed += estimates.empty();
     return result;
 }
 

@@ -7,6 +7,7 @@
 // ± .014.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,10 @@ struct MethodCoverage {
     /// Whether the share lies in .93 to .97, or could for all that so many studies tell (two standard errors).
     bool is_on_target() const;
 };
+
+/// One entry for each method that any study has estimates by, in the order of their first. A study without estimates could not
+/// be fitted.
+std::vector<MethodCoverage> count_coverage(const std::vector<std::vector<SlopeEstimate>>& studies, double true_slope);
 
 struct CellCoverage {
     std::string cell;

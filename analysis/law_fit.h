@@ -1,10 +1,14 @@
 // From trials to the law per condition, with the observer as the unit.
 //
 // Thresholds (threshold_fit.h) → each observer's ln c_j and its standard error (observer_fit.h) → the condition's slope over observers
-// (slope_estimate.h: random effects, REML, Knapp-Hartung t unless asked otherwise) → the worst case over conditions (worst_case.h).
+// (slope_estimate.h: random effects, REML, sandwich error unless asked otherwise) → the worst case over conditions (worst_case.h).
 // Observers differ far more than trials do: pooling all points, or Ceres' covariance of a pooled fit, gives intervals that cover
 // 62–84 % instead of 95 %. Intercept and exponent, r = b_j + c_j·a and r = c_j·a^{p_j}, are random-effects means over observers
 // likewise: is the law a line through the origin at all?
+//
+// Tracks that don't bound their threshold are left out, with a warning: 2–4 % of tracks of 20 or 40 trials. That selects: keeping
+// them, by their posteriors as they are, moves ln c by +.0009 ± .0002 (usual study), +.0001 ± .0003 (β 2, lapses .05) and
+// −.0002 ± .0004 (20 trials a track), less than .1 %, at the same coverage (200 planted studies of 10 observers each).
 #pragma once
 
 #include <string>
@@ -20,8 +24,8 @@ namespace stairstep {
 
 struct LawFitOptions {
     /// What the law's slope and interval are. ConditionLaw::estimates has the others beside it.
-    SlopeMethod method = SlopeMethod::knapp_hartung;
-    /// Huber's loss for thresholds within an observer, and Huber's mean over observers; goes with knapp-hartung and bca alone.
+    SlopeMethod method = SlopeMethod::sandwich;
+    /// Huber's loss for thresholds within an observer, and Huber's mean over observers; goes with sandwich and bca alone.
     bool robust = false;
     /// With no replicates, `estimates` holds only what needs none.
     BootstrapSettings bootstrap{.replicates = 0};

@@ -1,7 +1,9 @@
 #include "analysis/observer_fit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/ceres_options.h"
 #include "analysis/robust_mean.h"
@@ -139,16 +141,11 @@ std::optional<ObserverLaw> fit_observer(const std::vector<Threshold>& thresholds
     ObserverLaw law;
     law.through_origin = *through_origin;
     double precision = 0;
-    double linear_weights = 0;
     for (const Threshold& t : thresholds) {
         law.weight.push_back(weight_at(t, *through_origin, robust));
-        const double w = 1 / (t.ln_radius_sd() * t.ln_radius_sd());
-        precision += law.weight.back() * w;
-        // Σ a·r/sd² over Σ a²/sd² with sd ∝ a·s: a mean of r/a.
-        linear_weights += w;
-        law.linear_slope += w * t.radius_px() / t.condition.texel_px;
+        precision += law.weight.back() / (t.ln_radius_sd() * t.ln_radius_sd());
     }
-    law.linear_slope /= linear_weights;
+    law.linear_slope = linear_slope(thresholds);
     law.ln_slope_se = 1 / std::sqrt(precision);
     if (has_two_sizes(thresholds)) {
         law.with_intercept = fit_form(thresholds, FreeParameter::intercept, robust);
@@ -157,8 +154,39 @@ std::optional<ObserverLaw> fit_observer(const std::vector<Threshold>& thresholds
     return law;
 }
 
+double linear_slope(const std::vector<Threshold>& thresholds) {
+    assert(!thresholds.empty());
+    double weights = 0;
+    double sum = 0;
+    for (const Threshold& t : thresholds) {
+        // Σ a·r/sd² over Σ a²/sd² with sd ∝ a·s: a mean of r/a.
+        const double w = 1 / (t.ln_radius_sd() * t.ln_radius_sd());
+        weights += w;
+        sum += w * t.radius_px() / t.condition.texel_px;
+    }
+    return sum / weights;
+}
+
+std::optional<ObserverSlope> observer_slope(const std::vector<Threshold>& thresholds) {
+    const auto effect = fit_ln_slope(thresholds);
+    if (!effect) return std::nullopt;
+    ObserverSlope slope{thresholds.front().observer, effect->value, effect->se, linear_slope(thresholds), 0, 0};
+    for (const Threshold& t : thresholds) slope.trials += t.trials;
+    return slope;
+}
+
 std::optional<Effect> fit_ln_slope(const std::vector<Threshold>& thresholds, bool robust) {
     if (thresholds.empty()) return std::nullopt;
+    if (!robust) {
+        double precision = 0;
+        double sum = 0;
+        for (const Threshold& t : thresholds) {
+            const double w = 1 / (t.ln_radius_sd() * t.ln_radius_sd());
+            precision += w;
+            sum += w * -std::numbers::ln10 * t.log_threshold;
+        }
+        return Effect{sum / precision, 1 / std::sqrt(precision)};
+    }
     const auto law = fit(thresholds, FreeParameter::none, robust);
     if (!law) return std::nullopt;
     double precision = 0;

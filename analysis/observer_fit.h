@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "analysis/law/law.h"
+#include "analysis/law/law_statistics.h"
 #include "analysis/random_effects.h"
 #include "analysis/threshold_fit.h"
 
@@ -46,7 +47,14 @@ struct ObserverLaw {
 /// kernel; a size may occur twice.
 std::optional<ObserverLaw> fit_observer(const std::vector<Threshold>& thresholds, bool robust = false);
 
-/// `fit_observer`'s ln c alone, for simulated studies.
+/// `fit_observer`'s ln c alone, in the closed form above unless it is robust: for the many studies of a simulation.
 std::optional<Effect> fit_ln_slope(const std::vector<Threshold>& thresholds, bool robust = false);
+
+/// What a condition's slope is made of (slope_estimate.h), in closed form: the same as `fit_observer`'s, without its other
+/// laws. nullopt for no threshold.
+std::optional<ObserverSlope> observer_slope(const std::vector<Threshold>& thresholds);
+
+/// c by weighted least squares of r = c·a in pixels, as ObserverLaw has it. At least one threshold (asserted).
+double linear_slope(const std::vector<Threshold>& thresholds);
 
 }  // namespace stairstep

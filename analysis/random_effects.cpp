@@ -1,8 +1,12 @@
 #include "analysis/random_effects.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 
 #include "analysis/statistics.h"
@@ -34,14 +38,36 @@ double weighted_mean(std::span<const Effect> effects, double tau_squared, double
     return effects.front().value + sum / weights;
 }
 
+/// ln of a product, taken of several factors at a time: logarithms are what a likelihood of few observers costs. Four of the
+/// smallest variances, 10⁻³⁸ or so, are still a double.
+class LogOfProduct {
+  public:
+    void multiply(double factor) {
+        product_ *= factor;
+        if (++factors_ == 4) {
+            sum_ += std::log(product_);
+            product_ = 1;
+            factors_ = 0;
+        }
+    }
+    double value() const { return factors_ > 0 ? sum_ + std::log(product_) : sum_; }
+
+  private:
+    double product_ = 1;
+    double sum_ = 0;
+    int factors_ = 0;
+};
+
 /// ℓ at (μ, τ²), less its constant.
 double log_likelihood_at(std::span<const Effect> effects, double mean, double tau_squared, double least) {
-    double sum = 0;
+    LogOfProduct variances;
+    double squares = 0;
     for (const Effect& e : effects) {
         const double variance = variance_of(e, tau_squared, least);
-        sum += std::log(variance) + (e.value - mean) * (e.value - mean) / variance;
+        variances.multiply(variance);
+        squares += (e.value - mean) * (e.value - mean) / variance;
     }
-    return -sum / 2;
+    return -(variances.value() + squares) / 2;
 }
 
 double restricted_log_likelihood(std::span<const Effect> effects, double tau_squared, double least) {
@@ -65,30 +91,12 @@ double maximise_over_tau_squared(double largest, const F& f) {
             best_value = value;
         }
     }
-    double low = at(std::max(0, best - 1));
-    double high = at(std::min(kSteps, best + 1));
-    // Golden section: f is smooth, so 60 steps are far below what a maximum can be resolved to.
-    constexpr double kShare = std::numbers::phi - 1;
-    double left = high - kShare * (high - low);
-    double right = low + kShare * (high - low);
-    double f_left = f(left);
-    double f_right = f(right);
-    for (int i = 0; i < 60 && high - low > 1e-9 * high; ++i) {
-        if (f_left >= f_right) {
-            high = right;
-            right = left;
-            f_right = f_left;
-            left = high - kShare * (high - low);
-            f_left = f(left);
-        } else {
-            low = left;
-            left = right;
-            f_left = f_right;
-            right = low + kShare * (high - low);
-            f_right = f(right);
-        }
-    }
-    const double inner = (low + high) / 2;
+    // Brent's method, in units of the bracket: f is smooth, and half of a double's digits are what its maximum can be told to.
+    constexpr int kBits = std::numeric_limits<double>::digits / 2 + 2;
+    const double high = at(std::min(kSteps, best + 1));
+    const double inner = high * boost::math::tools::brent_find_minima([&](double x) { return -f(high * x); },
+                                                                      at(std::max(0, best - 1)) / high, 1.0, kBits)
+                                    .first;
     return f(inner) > f(0.0) ? inner : 0;
 }
 
@@ -104,6 +112,7 @@ double largest_tau_squared(std::span<const Effect> effects) {
     return largest_tau_squared(effects, effects.front().value, effects.front().value);
 }
 
+/// All but the interval.
 RandomEffects at_tau_squared(std::span<const Effect> effects, double tau_squared) {
     const double n = static_cast<double>(effects.size());
     const double least = least_variance(effects);
@@ -121,9 +130,13 @@ RandomEffects at_tau_squared(std::span<const Effect> effects, double tau_squared
     for (double& w : fit.weight) w /= weights;
     fit.model_se = 1 / std::sqrt(weights);
     fit.ci95 = {fit.mean, fit.mean};
-    if (effects.size() >= 2) {
-        fit.se = std::sqrt(squares / (n - 1) / weights);
-        const double half_width = t_quantile(0.975, n - 1) * fit.se;
+    if (effects.size() >= 2) fit.se = std::sqrt(squares / (n - 1) / weights);
+    return fit;
+}
+
+RandomEffects with_interval(RandomEffects fit, size_t observers) {
+    if (observers >= 2) {
+        const double half_width = t_quantile(0.975, static_cast<double>(observers) - 1) * fit.se;
         fit.ci95 = {fit.mean - half_width, fit.mean + half_width};
     }
     return fit;
@@ -150,18 +163,48 @@ double edge_of(double inside, double step, const F& within) {
 
 RandomEffects random_effects_at(std::span<const Effect> effects, double tau) {
     assert(!effects.empty());
-    return at_tau_squared(effects, tau * tau);
+    return with_interval(at_tau_squared(effects, tau * tau), effects.size());
+}
+
+RandomEffects estimate_random_effects(std::span<const Effect> effects, TauMethod method) {
+    assert(!effects.empty());
+    const double least = least_variance(effects);
+    const double tau_squared = maximise_over_tau_squared(largest_tau_squared(effects), [&](double candidate) {
+        return method == TauMethod::reml
+                   ? restricted_log_likelihood(effects, candidate, least)
+                   : log_likelihood_at(effects, weighted_mean(effects, candidate, least), candidate, least);
+    });
+    return at_tau_squared(effects, tau_squared);
 }
 
 RandomEffects fit_random_effects(std::span<const Effect> effects, TauMethod method) {
-    assert(!effects.empty());
-    const double least = least_variance(effects);
-    return at_tau_squared(effects, maximise_over_tau_squared(largest_tau_squared(effects), [&](double tau_squared) {
-                              return method == TauMethod::reml
-                                         ? restricted_log_likelihood(effects, tau_squared, least)
-                                         : log_likelihood_at(effects, weighted_mean(effects, tau_squared, least),
-                                                             tau_squared, least);
-                          }));
+    return with_interval(estimate_random_effects(effects, method), effects.size());
+}
+
+SandwichInterval sandwich_interval(std::span<const Effect> effects, const RandomEffects& fit) {
+    assert(effects.size() >= 2 && fit.weight.size() == effects.size());
+    double variance = 0;
+    double sum = 0;
+    double pairs = 0;  // Σ_{i≠j} a_i a_j
+    double weights_squared = 0;
+    for (size_t j = 0; j < effects.size(); ++j) {
+        const double p = fit.weight[j];
+        // One observer's estimate to all digits has residuals of rounding errors: a share that leaves some.
+        const double a = p * p / std::max(1 - p, 1e-9);
+        const double e = effects[j].value - fit.mean;
+        variance += a * e * e;
+        pairs += 2 * a * sum;
+        sum += a;
+        weights_squared += p * p;
+    }
+    // With cov(e_i, e_j) = (1/Σw)·([i = j]/p_j − 1): E(V) = 1/Σw and Var(V) = 2·Σ a_i a_j cov_ij².
+    const double largest = static_cast<double>(effects.size()) - 1;
+    SandwichInterval result;
+    result.se = std::sqrt(variance);
+    result.degrees_of_freedom = std::clamp(1 / (weights_squared + pairs), 1.0, largest);
+    const double half_width = t_quantile(0.975, result.degrees_of_freedom) * result.se;
+    result.ci95 = {fit.mean - half_width, fit.mean + half_width};
+    return result;
 }
 
 double profile_bound(size_t observers) {
@@ -174,7 +217,7 @@ double profile_bound(size_t observers) {
 ProfileInterval profile_likelihood(std::span<const Effect> effects, double bound) {
     assert(effects.size() >= 2);
     const double least = least_variance(effects);
-    const RandomEffects ml = fit_random_effects(effects, TauMethod::ml);
+    const RandomEffects ml = estimate_random_effects(effects, TauMethod::ml);
     const double top = log_likelihood_at(effects, ml.mean, ml.tau * ml.tau, least);
     const auto within = [&](double mean) {
         const double tau_squared = maximise_over_tau_squared(
@@ -211,7 +254,7 @@ Posterior random_effects_posterior(std::span<const Effect> effects, double tau_s
     for (int i = 0; i < kCells; ++i) {
         const double angle = std::numbers::pi / 2 * (i + 0.5) / kCells;
         const double tau = scale * std::tan(angle);
-        const RandomEffects at = random_effects_at(effects, tau);
+        const RandomEffects at = at_tau_squared(effects, tau * tau);
         const double log_prior = -std::log1p(tau / tau_scale * (tau / tau_scale));
         const double log_mass =
             restricted_log_likelihood(effects, tau * tau, least) + log_prior - 2 * std::log(std::cos(angle));
@@ -220,18 +263,33 @@ Posterior random_effects_posterior(std::span<const Effect> effects, double tau_s
     }
     double mass = 0;
     for (const Cell& cell : cells) mass += std::exp(cell.log_mass - top);
+    // What sums run over: shares below a rounding error of a quantile are left out.
+    struct Component {
+        double share, mean, sd;
+    };
+    std::vector<Component> components;
+    for (const Cell& cell : cells) {
+        const double share = std::exp(cell.log_mass - top) / mass;
+        if (share > 1e-14) components.push_back({share, cell.mean, cell.sd});
+    }
 
     const auto mean_below = [&](double mean) {
         double below = 0;
-        for (const Cell& cell : cells)
-            below += std::exp(cell.log_mass - top) * normal_cdf((mean - cell.mean) / cell.sd);
-        return below / mass;
+        for (const Component& c : components) below += c.share * normal_cdf((mean - c.mean) / c.sd);
+        return below;
     };
     const RandomEffects fit = fit_random_effects(effects);
-    const double step = std::max(fit.se, fit.model_se);
     const auto mean_at = [&](double p) {
-        if (mean_below(fit.mean) < p) return edge_of(fit.mean, step, [&](double m) { return mean_below(m) < p; });
-        return edge_of(fit.mean, -step, [&](double m) { return mean_below(m) > p; });
+        double low = fit.mean;
+        double high = fit.mean;
+        for (double step = std::max(fit.se, fit.model_se); mean_below(low) > p; step *= 2) low = fit.mean - step;
+        for (double step = std::max(fit.se, fit.model_se); mean_below(high) < p; step *= 2) high = fit.mean + step;
+        if (low == high) return low;
+        std::uintmax_t most = 100;
+        const auto [below, above] =
+            boost::math::tools::toms748_solve([&](double m) { return mean_below(m) - p; }, low, high,
+                                              boost::math::tools::eps_tolerance<double>(40), most);
+        return (below + above) / 2;
     };
     const auto tau_at = [&](double p) {
         double below = 0;

@@ -19,7 +19,7 @@ std::vector<Effect> effects_of(const std::vector<ObserverSlope>& observers) {
 }
 
 double mean_of(std::span<const Effect> effects, bool robust) {
-    return robust ? huber_mean(effects).mean : fit_random_effects(effects).mean;
+    return robust ? huber_mean(effects).mean : estimate_random_effects(effects).mean;
 }
 
 /// From ln c to c. Rounding must not push a value out of an interval that is a point.
@@ -46,7 +46,7 @@ SlopeEstimate parametric(const std::vector<Effect>& effects, const BootstrapSett
     const auto simulate = [&](Random random) {
         std::vector<Effect> study = effects;
         for (Effect& e : study) e.value = draw(random, fit, e.se);
-        const RandomEffects again = fit_random_effects(study);
+        const RandomEffects again = estimate_random_effects(study);
         return StudyEstimate{again.mean, again.se};
     };
     return on_ratio_scale(
@@ -70,7 +70,7 @@ SlopeEstimate of_thresholds(const SlopeData& data, const std::vector<Effect>& ef
             if (const auto effect = fit_ln_slope(drawn)) study.push_back(*effect);
         }
         if (study.size() < 2) return StudyEstimate{};
-        const RandomEffects again = fit_random_effects(study);
+        const RandomEffects again = estimate_random_effects(study);
         return StudyEstimate{again.mean, again.se};
     };
     return on_ratio_scale(SlopeMethod::thresholds, fit.mean,
@@ -105,6 +105,7 @@ SlopeEstimate linear(const std::vector<ObserverSlope>& observers) {
 
 std::string_view name(SlopeMethod method) {
     switch (method) {
+        case SlopeMethod::sandwich: return "sandwich";
         case SlopeMethod::knapp_hartung: return "knapp-hartung";
         case SlopeMethod::mean_t: return "mean-t";
         case SlopeMethod::linear_t: return "linear-t";
@@ -129,7 +130,7 @@ bool needs_bootstrap(SlopeMethod method) {
 }
 
 bool has_robust_form(SlopeMethod method) {
-    return method == SlopeMethod::knapp_hartung || method == SlopeMethod::bca;
+    return method == SlopeMethod::sandwich || method == SlopeMethod::bca;
 }
 
 double mean_ln_slope(const std::vector<ObserverSlope>& observers, bool robust) {
@@ -141,12 +142,19 @@ SlopeEstimate slope_estimate(SlopeMethod method, const SlopeData& data, const Bo
     assert(!data.robust || has_robust_form(method));
     const std::vector<Effect> effects = effects_of(data.observers);
     switch (method) {
-        case SlopeMethod::knapp_hartung: {
+        case SlopeMethod::sandwich: {
             if (data.robust) {
                 const RobustMean fit = huber_mean(effects);
                 return on_ratio_scale(method, fit.mean, fit.ci95,
                                       "Huber mean of ln c over observers; sandwich error, Student's t");
             }
+            const RandomEffects fit = estimate_random_effects(effects);
+            const SandwichInterval interval = sandwich_interval(effects, fit);
+            return on_ratio_scale(method, fit.mean, interval.ci95,
+                                  "random-effects mean of ln c over observers (REML); sandwich error (CR2), t with " +
+                                      format_fixed(interval.degrees_of_freedom, 1) + " degrees of freedom");
+        }
+        case SlopeMethod::knapp_hartung: {
             const RandomEffects fit = fit_random_effects(effects);
             return on_ratio_scale(method, fit.mean, fit.ci95,
                                   "random-effects mean of ln c over observers (REML); Knapp-Hartung t");

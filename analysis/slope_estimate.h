@@ -1,7 +1,8 @@
 // A condition's slope c by a choice of methods, each saying in words what it did.
 //
 // | name             | value                     | 95 % interval                                                        |
-// | knapp-hartung    | exp of REML mean of ln c  | Knapp-Hartung t (random_effects.h): the default                      |
+// | sandwich         | exp of REML mean of ln c  | sandwich error, Satterthwaite's t (random_effects.h): the default    |
+// | knapp-hartung    | exp of REML mean of ln c  | Knapp-Hartung t                                                      |
 // | mean-t           | exp of plain mean of ln c | Student's t                                                          |
 // | linear-t         | plain mean of c in pixels | Student's t; the mean of c, e^{τ²/2} times its median                |
 // | profile          | exp of ML mean            | profile likelihood, its bound exact for equal errors                 |
@@ -10,7 +11,7 @@
 // | thresholds       | exp of REML mean          | the same, each threshold simulated and each observer's law fitted    |
 // | bca              | exp of REML mean          | observers resampled, bias-corrected and accelerated                  |
 //
-// The first five need no replicates. A robust fit has two: knapp-hartung means Huber's mean with its sandwich t (robust_mean.h), bca
+// The first six need no replicates. A robust fit has two: sandwich means Huber's mean with its sandwich t (robust_mean.h), bca
 // resamples Huber's mean.
 #pragma once
 
@@ -24,11 +25,11 @@
 
 namespace stairstep {
 
-enum class SlopeMethod { knapp_hartung, mean_t, linear_t, profile, posterior, parametric, thresholds, bca };
+enum class SlopeMethod { sandwich, knapp_hartung, mean_t, linear_t, profile, posterior, parametric, thresholds, bca };
 
-constexpr SlopeMethod kSlopeMethods[]{SlopeMethod::knapp_hartung, SlopeMethod::mean_t,    SlopeMethod::linear_t,
-                                      SlopeMethod::profile,       SlopeMethod::posterior, SlopeMethod::parametric,
-                                      SlopeMethod::thresholds,    SlopeMethod::bca};
+constexpr SlopeMethod kSlopeMethods[]{SlopeMethod::sandwich,   SlopeMethod::knapp_hartung, SlopeMethod::mean_t,
+                                      SlopeMethod::linear_t,   SlopeMethod::profile,       SlopeMethod::posterior,
+                                      SlopeMethod::parametric, SlopeMethod::thresholds,    SlopeMethod::bca};
 
 /// As in the table above.
 std::string_view name(SlopeMethod method);

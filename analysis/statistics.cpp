@@ -23,7 +23,9 @@ MeanEstimate mean_with_interval(const std::vector<double>& values) {
 }
 
 double t_quantile(double p, double degrees_of_freedom) {
-    return boost::math::quantile(boost::math::students_t(degrees_of_freedom), p);
+    // In doubles throughout: good to 10⁻¹⁴, and bootstraps ask often.
+    using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+    return boost::math::quantile(boost::math::students_t_distribution<double, Policy>(degrees_of_freedom), p);
 }
 
 double t_two_sided_p(double t, double degrees_of_freedom) {

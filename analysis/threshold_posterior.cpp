@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "analysis/overdispersion.h"
+#include "analysis/threshold_likelihood.h"
 #include "stimuli/gauss_legendre.h"
-#include "study/engines/geometric_likelihood.h"
 #include "study/psychometric.h"
 
 namespace stairstep {
 namespace {
 
-constexpr double kGamma = 0.5;
 /// Spacing of T's grid to begin with, log10 units, and the most points it may have.
-constexpr double kGrain = 0.02;
+constexpr double kGrain = 0.03;
 constexpr double kMostPoints = 600;
 /// The same for strengths over more than a dozen decades.
 constexpr double kWideGrain = 0.06;
@@ -34,29 +32,6 @@ constexpr double kEnd = 0.1;
 constexpr size_t kFirstSample = 1000;
 constexpr size_t kSampleGrowth = 12;
 constexpr int kMostPasses = 100;
-/// Factors that are multiplied before their logarithm is taken: each is at least δ/2, and 10⁻⁷ at the very least.
-constexpr int kFactorsALogarithm = 24;
-
-using Lanes [[gnu::vector_size(2 * sizeof(double))]] = double;
-
-/// product[i] *= a + b·e[i], for an even count.
-void multiply(double* product, const double* e, size_t count, double a, double b) {
-    for (size_t i = 0; i < count; i += 2) {
-        Lanes p, x;
-        std::memcpy(&p, product + i, sizeof p);
-        std::memcpy(&x, e + i, sizeof x);
-        p *= a + b * x;
-        std::memcpy(product + i, &p, sizeof p);
-    }
-}
-
-/// log_sum[i] += count·ln(product[i]), and product[i] = 1 again.
-void take_logarithm(double* log_sum, double* product, size_t points, double count) {
-    for (size_t i = 0; i < points; ++i) {
-        log_sum[i] += count * std::log(product[i]);
-        product[i] = 1;
-    }
-}
 
 /// Where the sum runs: an interval for each parameter.
 struct Interval {
@@ -70,95 +45,9 @@ struct Window {
     Interval ln_beta;
     Interval delta;
 
+    LocationGrid grid() const { return {location.low, location.high, points}; }
     double grain() const { return location.width() / static_cast<double>(points - 1); }
 };
-
-/// e^{−u} of one strength at all locations, u = 10^{β(x − L)}.
-class SeenTable {
-  public:
-    SeenTable(const Window& window, double beta) : first_(window.location.low), grain_(window.grain()), beta_(beta) {
-        // From where u would exceed 700 to where 1 − e^{−u} can't be told from 0.
-        const double decades = std::log10(700.0) + 18;
-        const size_t count = std::min<double>(static_cast<double>(window.points), decades / (beta * grain_)) + 2;
-        powers_.resize(count);
-        for (size_t k = 0; k < count; ++k) powers_[k] = std::pow(10.0, -beta * grain_ * static_cast<double>(k));
-    }
-
-    void fill(std::vector<double>& e, double strength) const {
-        const double points = static_cast<double>(e.size());
-        const double exponent = beta_ * (strength - first_);  // of u at the first location
-        const double begin = std::clamp(std::ceil((exponent - std::log10(700.0)) / (beta_ * grain_)), 0.0, points);
-        const size_t from = static_cast<size_t>(begin);
-        const size_t to = std::min(e.size(), from + powers_.size());
-        std::fill(e.begin(), e.begin() + from, 0.0);
-        std::fill(e.begin() + from, e.end(), 1.0);
-        const double scale = std::pow(10.0, std::clamp(exponent - beta_ * grain_ * begin, -300.0, std::log10(700.0)));
-        multiply_by_exponential(e.data() + from, {scale, powers_.data()}, 0, to - from, 0, 1);
-    }
-
-  private:
-    double first_;
-    double grain_;
-    double beta_;
-    std::vector<double> powers_;
-};
-
-/// ln of Π Ψ_k at all locations, one row for each δ: independent answers.
-void add_independent(std::vector<double>& log_likelihood, const std::vector<PooledTrials>& trials, size_t stride,
-                     const Window& window, double beta, const std::vector<double>& deltas) {
-    const SeenTable seen(window, beta);
-    const size_t points = window.points;
-    std::vector<double> e(points);
-    std::vector<double> product(points * deltas.size(), 1.0);
-    const auto multiply_all = [&](const PooledTrials& trial) {
-        seen.fill(e, trial.strength);
-        for (size_t d = 0; d < deltas.size(); ++d) {
-            const double blind = (1 - kGamma) * deltas[d];
-            const double aware = (1 - kGamma) * (1 - deltas[d]);
-            if (trial.correct) {
-                multiply(&product[d * points], e.data(), points, 1 - blind, -aware);
-            } else {
-                multiply(&product[d * points], e.data(), points, blind, aware);
-            }
-        }
-    };
-    int factors = 0;
-    for (size_t k = 0; k < trials.size(); k += stride) {
-        if (trials[k].count != 1) continue;
-        multiply_all(trials[k]);
-        if (++factors % kFactorsALogarithm == 0) {
-            take_logarithm(log_likelihood.data(), product.data(), product.size(), 1);
-        }
-    }
-    take_logarithm(log_likelihood.data(), product.data(), product.size(), 1);
-    for (size_t k = 0; k < trials.size(); k += stride) {
-        if (trials[k].count == 1) continue;
-        multiply_all(trials[k]);
-        take_logarithm(log_likelihood.data(), product.data(), product.size(), trials[k].count);
-    }
-}
-
-/// The same with answers at one strength going together.
-void add_overdispersed(std::vector<double>& log_likelihood, const std::vector<PooledTrials>& trials, size_t stride,
-                       const Window& window, double beta, const std::vector<double>& deltas, double eta) {
-    const SeenTable seen(window, beta);
-    std::vector<double> e(window.points);
-    for (size_t k = 0; k < trials.size(); k += stride) {
-        const PooledTrials& first = trials[k];
-        // Sorted: the wrong answers at a strength stand before the right ones.
-        const bool both = k + 1 < trials.size() && trials[k + 1].strength == first.strength && stride == 1;
-        const double wrong = first.correct ? 0 : first.count;
-        const double right = first.correct ? first.count : both ? trials[k + 1].count : 0;
-        seen.fill(e, first.strength);
-        for (size_t d = 0; d < deltas.size(); ++d) {
-            for (size_t i = 0; i < window.points; ++i) {
-                const double psi = 1 - (1 - kGamma) * (deltas[d] + (1 - deltas[d]) * e[i]);
-                log_likelihood[d * window.points + i] += beta_binomial_log_likelihood(right, wrong, psi, eta);
-            }
-        }
-        if (both) ++k;
-    }
-}
 
 /// What one pass over the window found.
 struct Sum {
@@ -180,37 +69,56 @@ double sd_of(double mass, double moment, double square) {
     return std::sqrt(std::max(0.0, square / mass - mean * mean));
 }
 
-/// A mixture of the grids of all (β, δ), each moved by its own ε, on one finer grid: for quantiles.
-class Histogram {
+/// A mixture of the grids of all (β, δ), each moved by its own ε, on one finer grid: for quantiles. Each grid point's mass is
+/// spread evenly over a cell, so that the distribution function is a sum of ramps: kept as where they begin and end.
+class Mixture {
   public:
-    Histogram(double low, double high, double grain)
-        : low_(low - grain), grain_(grain), mass_(static_cast<size_t>((high - low) / grain) + 4) {}
+    Mixture(double low, double high, double grain)
+        : low_(low - grain),
+          grain_(grain),
+          slope_(static_cast<size_t>((high - low) / grain) + 4),
+          value_(slope_.size()) {}
 
-    /// Spreads a grid point's mass over its cell of the coarser grid.
     void add(double t, double cell, double mass) {
         const double from = (t - cell / 2 - low_) / grain_;
         const double to = (t + cell / 2 - low_) / grain_;
-        const double last = static_cast<double>(mass_.size());
-        const double share = mass / (to - from);
-        for (double i = std::max(0.0, std::floor(from)); i < std::min(last, to); ++i) {
-            mass_[static_cast<size_t>(i)] += share * (std::min(to, i + 1) - std::max(from, i));
-        }
+        begin_ramp(from, mass / (to - from));
+        begin_ramp(to, -mass / (to - from));
     }
 
-    double quantile(double order) const {
-        double total = 0;
-        for (const double m : mass_) total += m;
-        double below = 0;
-        size_t i = 0;
-        while (i + 1 < mass_.size() && below + mass_[i] < order * total) below += mass_[i++];
-        const double within = mass_[i] > 0 ? std::clamp((order * total - below) / mass_[i], 0.0, 1.0) : 0.5;
-        return low_ + (static_cast<double>(i) + within) * grain_;
+    /// Of these ascending orders.
+    std::pair<double, double> quantiles(double first, double second) const {
+        std::vector<double> below(slope_.size());
+        double slope = 0;
+        double value = 0;
+        for (size_t i = 0; i < below.size(); ++i) {
+            value += slope + value_[i];
+            slope += slope_[i];
+            below[i] = value;
+        }
+        const auto quantile = [&](double order) {
+            const double wanted = order * below.back();
+            size_t i = 1;
+            while (i + 1 < below.size() && below[i] < wanted) ++i;
+            const double mass = below[i] - below[i - 1];
+            const double within = mass > 0 ? std::clamp((wanted - below[i - 1]) / mass, 0.0, 1.0) : 0.5;
+            return low_ + (static_cast<double>(i - 1) + within) * grain_;
+        };
+        return {quantile(first), quantile(second)};
     }
 
   private:
+    /// A ramp from x on, in grid units: at the next grid point it has this value, and goes on with its slope.
+    void begin_ramp(double x, double slope) {
+        const double next = std::clamp(std::ceil(x), 0.0, static_cast<double>(slope_.size() - 1));
+        slope_[static_cast<size_t>(next)] += slope;
+        value_[static_cast<size_t>(next)] += slope * (next - x);
+    }
+
     double low_;
     double grain_;
-    std::vector<double> mass_;
+    std::vector<double> slope_;
+    std::vector<double> value_;
 };
 
 Sum sum_over(const std::vector<PooledTrials>& trials, size_t stride, const Window& window, const Interval& range,
@@ -239,13 +147,13 @@ Sum sum_over(const std::vector<PooledTrials>& trials, size_t stride, const Windo
             const double eta = eta_rule.nodes[h];
             std::vector<double> block(deltas.size() * points);
             if (settings.overdispersed) {
-                add_overdispersed(block, trials, stride, window, beta, deltas, eta);
+                add_overdispersed_log_likelihood(block, trials, stride, window.grid(), beta, deltas, eta);
             } else {
-                add_independent(block, trials, stride, window, beta, deltas);
+                add_log_likelihood(block, trials, stride, window.grid(), beta, deltas);
             }
             log_posterior.insert(log_posterior.end(), block.begin(), block.end());
             for (size_t d = 0; d < deltas.size(); ++d) {
-                const PsychometricShape shape{beta, kGamma, deltas[d], settings.p_threshold};
+                const PsychometricShape shape{beta, kGuessRate, deltas[d], settings.p_threshold};
                 const bool is_end = b == 0 || b + 1 == beta_count;
                 rows.push_back(
                     {ln_beta, deltas[d], eta, threshold_offset(shape),
@@ -284,7 +192,8 @@ Sum sum_over(const std::vector<PooledTrials>& trials, size_t stride, const Windo
         double m = 0, s1 = 0, s2 = 0;
         for (size_t i = 0; i < points; ++i) {
             double& p = log_posterior[r * points + i];
-            p = std::exp(p - largest);
+            // Less than that is no digit of any sum.
+            p = p < largest - 60 ? 0 : std::exp(p - largest);
             if (p == 0) continue;
             const double l = location(i) - middle;
             const double t = l + middle + rows[r].offset;
@@ -334,19 +243,48 @@ Sum sum_over(const std::vector<PooledTrials>& trials, size_t stride, const Windo
 std::pair<double, double> central_interval(const Sum& sum, const Window& window) {
     const double grain = window.grain();
     const auto [least, most] = std::minmax_element(sum.offsets.begin(), sum.offsets.end());
-    Histogram histogram(window.location.low + *least - grain, window.location.high + *most + grain, grain / 8);
+    Mixture mixture(window.location.low + *least - grain, window.location.high + *most + grain, grain / 8);
     for (size_t r = 0; r < sum.offsets.size(); ++r) {
         for (size_t i = 0; i < window.points; ++i) {
             const double mass = sum.density[r * window.points + i];
             if (mass > 0) {
-                histogram.add(window.location.low + grain * static_cast<double>(i) + sum.offsets[r], grain, mass);
+                mixture.add(window.location.low + grain * static_cast<double>(i) + sum.offsets[r], grain, mass);
             }
         }
     }
+    const auto [low, high] = mixture.quantiles(0.025, 0.975);
     const double mean = sum.posterior.mean;
     const double sd = sum.posterior.sd;
     const double shrink = sd / std::hypot(sd, grain / std::sqrt(12.0));
-    return {mean + shrink * (histogram.quantile(0.025) - mean), mean + shrink * (histogram.quantile(0.975) - mean)};
+    return {mean + shrink * (low - mean), mean + shrink * (high - mean)};
+}
+
+/// The locations that can matter, from a look at a few shapes: the median, and the ends of what the prior allows. Where none of
+/// them leaves a likelihood worth mentioning, no shape between them does.
+Interval likely_locations(const std::vector<PooledTrials>& trials, size_t stride, const Window& window,
+                          const ShapePrior& prior) {
+    constexpr double kNegligible = 25;  // e^−25 of the largest
+    const std::vector<double> deltas{prior.mean_lapse, prior.largest_lapse};
+    std::vector<double> best(window.points, -INFINITY);
+    for (const double ln_beta : {window.ln_beta.low, std::log(prior.median_beta), window.ln_beta.high}) {
+        std::vector<double> block(deltas.size() * window.points);
+        add_log_likelihood(block, trials, stride, window.grid(), std::exp(ln_beta), deltas);
+        const double z = (ln_beta - std::log(prior.median_beta)) / prior.ln_beta_sd;
+        for (size_t d = 0; d < deltas.size(); ++d) {
+            const double log_weight = -z * z / 2 - deltas[d] / prior.mean_lapse;
+            for (size_t i = 0; i < window.points; ++i) {
+                best[i] = std::max(best[i], block[d * window.points + i] + log_weight);
+            }
+        }
+    }
+    const double least = *std::max_element(best.begin(), best.end()) - kNegligible;
+    size_t first = 0;
+    size_t last = window.points - 1;
+    while (best[first] < least) ++first;
+    while (best[last] < least) --last;
+    const LocationGrid grid = window.grid();
+    return {first > 0 ? grid.at(first - 1) : window.location.low,
+            last + 1 < window.points ? grid.at(last + 1) : window.location.high};
 }
 
 /// mean ± reach, within limits, but no narrower than `least` on either side.
@@ -356,29 +294,6 @@ Interval around(double mean, double reach, double least, const Interval& limits)
 }
 
 }  // namespace
-
-std::vector<PooledTrials> pool(std::vector<PooledTrials> trials) {
-    std::sort(trials.begin(), trials.end(), [](const PooledTrials& a, const PooledTrials& b) {
-        return a.strength < b.strength || (a.strength == b.strength && a.correct < b.correct);
-    });
-    size_t kept = 0;
-    for (size_t k = 1; k < trials.size(); ++k) {
-        if (trials[k].strength == trials[kept].strength && trials[k].correct == trials[kept].correct) {
-            trials[kept].count += trials[k].count;
-        } else {
-            trials[++kept] = trials[k];
-        }
-    }
-    if (!trials.empty()) trials.resize(kept + 1);
-    return trials;
-}
-
-std::vector<double> location_log_likelihood(const std::vector<PooledTrials>& pooled, double beta, double delta,
-                                            double first, double last, size_t points) {
-    std::vector<double> log_likelihood(points);
-    add_independent(log_likelihood, pooled, 1, {{first, last}, points, {}, {}}, beta, {delta});
-    return log_likelihood;
-}
 
 ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, const PosteriorSettings& settings) {
     assert(!pooled.empty());
@@ -391,7 +306,7 @@ ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, 
     // Locations are T − ε; ε is largest in size at the least β, and grows with δ.
     Interval all_locations = range;
     for (const double delta : {all_deltas.low, all_deltas.high}) {
-        const double offset = threshold_offset({std::exp(all_betas.low), kGamma, delta, settings.p_threshold});
+        const double offset = threshold_offset({std::exp(all_betas.low), kGuessRate, delta, settings.p_threshold});
         all_locations.low = std::min(all_locations.low, range.low - offset);
         all_locations.high = std::max(all_locations.high, range.high - offset);
     }
@@ -400,13 +315,19 @@ ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, 
         return 2 * static_cast<size_t>(std::clamp(width / grain * refinement / 2, 8.0, kMostPoints / 2 * refinement)) +
                2;
     };
-    Window window{all_locations, even_points(all_locations.width(), kGrain), all_betas, all_deltas};
     // Strengths that lie many decades apart: more points, so that no likelihood falls between two of them.
-    if (window.grain() > kWideGrain) {
-        window.points = 2 * static_cast<size_t>(std::min(all_locations.width() / kWideGrain, kMostWidePoints) / 2) + 2;
-    }
+    const auto first_points = [&](double width) {
+        const size_t points = even_points(width, kGrain);
+        if (width / static_cast<double>(points - 1) <= kWideGrain) return points;
+        return 2 * static_cast<size_t>(std::min(width / kWideGrain, kMostWidePoints) / 2) + 2;
+    };
+    Window window{all_locations, first_points(all_locations.width()), all_betas, all_deltas};
 
     size_t stride = std::max<size_t>(1, (pooled.size() + kFirstSample - 1) / kFirstSample);
+    if (!settings.overdispersed) {
+        window.location = likely_locations(pooled, stride, window, prior);
+        window.points = first_points(window.location.width());
+    }
     for (int pass = 0;; ++pass) {
         Sum sum = sum_over(pooled, stride, window, range, settings);
         const double grain = window.grain();
@@ -433,7 +354,8 @@ ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, 
             ((sum.at_low_edge > kLittle && window.location.low > all_locations.low) ||
              (sum.at_high_edge > kLittle && window.location.high < all_locations.high))) {
             next.location = around(sum.location_mean, window.location.width(), 0, all_locations);
-            next.points = even_points(next.location.width(), grain);
+            // Half a step more: rounding must not decide how often the step goes into a multiple of itself.
+            next.points = even_points(next.location.width() + grain / 2, grain);
             settled = false;
         }
         if (settled) {

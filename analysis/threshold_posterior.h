@@ -11,22 +11,12 @@
 // trials once, pooled.
 #pragma once
 
-#include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "analysis/threshold_likelihood.h"
+
 namespace stairstep {
-
-/// Equal trials of one track, together.
-struct PooledTrials {
-    /// x = log10(texel_px/radius_px).
-    double strength = 0;
-    bool correct = false;
-    double count = 1;
-};
-
-/// Sorted by strength; one entry for each strength and answer.
-std::vector<PooledTrials> pool(std::vector<PooledTrials> trials);
 
 /// What is known of an observer beforehand: ln β is normal, δ exponential, cut off at largest_lapse.
 ///
@@ -70,10 +60,5 @@ struct PosteriorSettings {
 
 /// Needs at least one trial, finite strengths and positive counts (asserted).
 ThresholdPosterior threshold_posterior(const std::vector<PooledTrials>& pooled, const PosteriorSettings& settings);
-
-/// Σ count·ln Ψ of the answers at an even number of locations L = T − ε from first to last: what the posterior is made of.
-/// To 10⁻⁹ of log_likelihood in study/psychometric.h. delta in [10⁻⁷, 1).
-std::vector<double> location_log_likelihood(const std::vector<PooledTrials>& pooled, double beta, double delta,
-                                            double first, double last, size_t points);
 
 }  // namespace stairstep

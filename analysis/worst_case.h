@@ -44,7 +44,7 @@ struct ConditionMean {
 };
 
 /// At least one condition, each with two observers or more (asserted). `means` replace Knapp & Hartung's where there are any, one
-/// a condition, as a robust fit's do; q stays that of the correlation between conditions. The same seed gives the same q; simulated studies number
+/// a condition, as a robust fit's and the sandwich's do, whose errors are scaled to t_{n−1}; q stays that of the correlation between conditions. The same seed gives the same q; simulated studies number
 /// 4,000, which leaves q uncertain by about 2.5 %.
 WorstCase worst_case(const std::vector<EffectsByObserver>& conditions, uint64_t seed, int jobs = 1,
                      const std::vector<ConditionMean>& means = {});

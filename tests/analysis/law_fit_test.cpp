@@ -135,6 +135,29 @@ TEST(FitLaw, TheChosenMethodIsTheLaws) {
     EXPECT_THROW(fit_planted({}, 2, {.method = SlopeMethod::profile, .robust = true}), InputError);
 }
 
+TEST(FitLaw, SaysWhatItsIntervalLacks) {
+    const auto warned = [](const LawFit& fit, const char* of) {
+        return std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                           [&](const std::string& warning) { return warning.find(of) != std::string::npos; });
+    };
+    const LawFit usual = fit_planted({}, 1, kEverything);
+    EXPECT_FALSE(warned(usual, "few observers"));
+    EXPECT_FALSE(warned(usual, "bca"));
+    PlantedStudy alike;
+    alike.observers = 20;
+    alike.between_sd = 0.03;
+    EXPECT_TRUE(warned(fit_planted(alike, 1, kEverything), "narrow"));
+    PlantedStudy unlike;
+    unlike.between_sd = 0.4;
+    EXPECT_FALSE(warned(fit_planted(unlike, 1, kEverything), "narrow"));
+    LawFitOptions bca = kEverything;
+    bca.method = SlopeMethod::bca;
+    EXPECT_TRUE(warned(fit_planted({}, 1, bca), "bca with 10 observers"));
+    PlantedStudy many;
+    many.observers = 40;
+    EXPECT_FALSE(warned(fit_planted(many, 1, bca), "bca with"));
+}
+
 TEST(FitLaw, OneAndTwoThreadsGiveTheSameFile) {
     const TemporaryFolder folder;
     const auto bytes = [&](int jobs) {

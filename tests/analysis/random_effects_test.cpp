@@ -296,18 +296,77 @@ TEST(RandomEffects, RaisingQToOneWouldCoverTooMuch) {
     }
 }
 
-TEST(RandomEffects, FewPreciseObserversAreTheirLimit) {
-    // Two of ten measured ten times as well: a mean of two, with the t of ten. The plain mean holds.
+std::pair<double, double> sandwich(const std::vector<Effect>& effects) {
+    return sandwich_interval(effects, fit_random_effects(effects)).ci95;
+}
+
+TEST(SandwichInterval, IsThePlainTForEqualErrors) {
+    Random random(8);
+    for (const size_t observers : {2, 5, 20}) {
+        const std::vector<Effect> effects = draw_study(random, observers, 0.1, [](size_t) { return 0.07; });
+        const RandomEffects fit = fit_random_effects(effects);
+        const SandwichInterval interval = sandwich_interval(effects, fit);
+        EXPECT_NEAR(interval.degrees_of_freedom, static_cast<double>(observers) - 1, 1e-9);
+        EXPECT_NEAR(interval.se, fit.se, 1e-12);
+        EXPECT_NEAR(interval.ci95.first, fit.ci95.first, 1e-10);
+        EXPECT_NEAR(interval.ci95.second, fit.ci95.second, 1e-10);
+    }
+}
+
+TEST(SandwichInterval, HasTheMomentsOfItsModel) {
+    // V over studies whose τ is known: mean 1/Σw, and 2·mean²/variance its degrees of freedom.
+    const auto se = [](size_t j) { return j < 2 ? 0.05 : 0.2; };
+    double sum = 0, squares = 0, degrees = 0, mean_variance = 0;
+    constexpr int kStudies = 40000;
+    for (int i = 0; i < kStudies; ++i) {
+        Random random = Random(12).stream(static_cast<uint64_t>(i));
+        const std::vector<Effect> effects = draw_study(random, 8, 0.1, se);
+        const RandomEffects fit = random_effects_at(effects, 0.1);
+        const SandwichInterval interval = sandwich_interval(effects, fit);
+        const double variance = interval.se * interval.se;
+        sum += variance / kStudies;
+        squares += variance * variance / kStudies;
+        degrees = interval.degrees_of_freedom;
+        mean_variance = fit.model_se * fit.model_se;
+    }
+    EXPECT_NEAR(sum, mean_variance, 0.02 * mean_variance);
+    EXPECT_NEAR(2 * sum * sum / (squares - sum * sum), degrees, 0.06 * degrees);
+    EXPECT_LT(degrees, 6);
+}
+
+TEST(SandwichInterval, HoldsWhereFewObserversHaveTheWeight) {
+    // Two of ten measured ten times as well. Knapp and Hartung's weights are two observers', their t is that of ten; the sandwich
+    // knows, and the plain mean doesn't mind. Binomial SD .005.
     const auto tenfold = [](size_t j) { return j < 2 ? 0.03 : 0.3; };
     const double weighted = coverage(10, 0.16, tenfold, knapp_hartung);
+    const double robust = coverage(10, 0.16, tenfold, sandwich);
     const double plain = coverage(10, 0.16, tenfold, [](const std::vector<Effect>& effects) {
         std::vector<double> values;
         for (const Effect& e : effects) values.push_back(e.value);
         return mean_with_interval(values).ci95;
     });
-    std::printf("tenfold errors, tau .16, 10 observers: Knapp-Hartung %.3f, plain mean %.3f\n", weighted, plain);
+    std::printf("tenfold errors, tau .16, 10 observers: Knapp-Hartung %.3f, sandwich %.3f, plain mean %.3f\n", weighted,
+                robust, plain);
     EXPECT_GE(plain, 0.93);
+    EXPECT_GE(robust, 0.93);
     EXPECT_LT(weighted, 0.9);
+    for (const double tau : {0.0, 0.05, 0.16}) {
+        for (const size_t observers : {5, 10, 30}) {
+            const double share = coverage(observers, tau, threefold, sandwich);
+            EXPECT_GE(share, 0.93) << tau << " " << observers;
+            EXPECT_LE(share, 0.975) << tau << " " << observers;
+        }
+    }
+}
+
+TEST(SandwichInterval, IsFiniteWhereOneObserverIsAll) {
+    const std::vector<Effect> uneven{{1, 1e-9}, {1.2, 3}, {0.7, 3}};
+    const SandwichInterval interval = sandwich_interval(uneven, random_effects_at(uneven, 0));
+    EXPECT_TRUE(std::isfinite(interval.ci95.first) && std::isfinite(interval.ci95.second));
+    EXPECT_LT(interval.degrees_of_freedom, 1.01);
+    const std::vector<Effect> equal{{1, 0}, {1, 0}, {1, 0}};
+    const SandwichInterval point = sandwich_interval(equal, fit_random_effects(equal));
+    EXPECT_EQ(point.ci95, std::pair(1.0, 1.0));
 }
 
 TEST(RandomEffects, ProfileAndPosteriorCover) {

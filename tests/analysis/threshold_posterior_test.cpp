@@ -199,29 +199,6 @@ TEST(ThresholdPosterior, CoversOverSlopesAndThresholdProbabilities) {
     }
 }
 
-TEST(ThresholdPosterior, MultipliesTheLikelihoodsOfThePsychometricFunction) {
-    Random random(4);
-    auto track = pool(spread_trials(random, {}, 300));
-    track.push_back({0.5, true, 1000000});
-    track.push_back({0.6, false, 7});
-    track.push_back({-500, true, 1});
-    track.push_back({500, false, 1});
-    for (const double beta : {0.8, 3.0, 12.0}) {
-        for (const double delta : {1e-6, 0.02, 0.3}) {
-            const PsychometricShape shape{beta, 0.5, delta, 0.82};
-            const std::vector<double> table = location_log_likelihood(track, beta, delta, -1.5, 1.5, 100);
-            for (size_t i = 0; i < table.size(); ++i) {
-                const double location = -1.5 + 3.0 * static_cast<double>(i) / 99;
-                double sum = 0;
-                for (const PooledTrials& t : track) {
-                    sum += t.count * log_likelihood(shape, 0, t.strength, location, t.correct);
-                }
-                ASSERT_NEAR(table[i], sum, 1e-9 + 1e-12 * std::abs(sum)) << beta << " " << delta << " " << location;
-            }
-        }
-    }
-}
-
 /// 10⁵ strengths that all differ, and a million at seven: the grid has to find an interval of 10⁻³ to 10⁻⁴.
 TEST(ThresholdPosterior, NarrowsWithTheRootOfTheTrials) {
     const PsychometricShape truth{.beta = 2.7, .delta = 0.03};
