@@ -32,7 +32,7 @@ class Report : public testing::Test {
 
 TEST_F(Report, IsWholeAndNeedsNoNetwork) {
     write_png(folder_.path() / "sheet.png", Image(8, 8, 1));
-    const std::string html = report_html(trials_, fit_, {(folder_.path() / "sheet.png").string(), ""});
+    const std::string html = make_report(trials_, fit_, {(folder_.path() / "sheet.png").string(), ""}).html;
     EXPECT_EQ(html.find("{{"), std::string::npos);
     EXPECT_NE(html.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
     EXPECT_NE(html.find("<svg"), std::string::npos);
@@ -48,12 +48,12 @@ TEST_F(Report, RefusesInputsThatAreNotWhatTheyShouldBe) {
         write_file(folder_.path() / name, text);
         return (folder_.path() / name).string();
     };
-    EXPECT_THROW(report_html(trials_, fit_, {file("sheet.png", "no picture"), ""}), InputError);
-    EXPECT_THROW(report_html(trials_, fit_, {"absent.png", ""}), InputError);
-    EXPECT_THROW(report_html(trials_, fit_, {"", "absent.json"}), InputError);
+    EXPECT_THROW(make_report(trials_, fit_, {file("sheet.png", "no picture"), ""}), InputError);
+    EXPECT_THROW(make_report(trials_, fit_, {"absent.png", ""}), InputError);
+    EXPECT_THROW(make_report(trials_, fit_, {"", "absent.json"}), InputError);
     for (const char* stats : {"{", "{}", R"({"renderings":[]})", R"({"renderings":[1]})", R"({"renderings":[{}]})",
                               R"({"renderings":[{"resolution":"auto","file":"absent.png"}]})"}) {
-        EXPECT_THROW(report_html(trials_, fit_, {"", file("stats.json", stats)}), InputError) << stats;
+        EXPECT_THROW(make_report(trials_, fit_, {"", file("stats.json", stats)}), InputError) << stats;
     }
 }
 
