@@ -55,12 +55,14 @@ void add_track(Panels& panels, const Track& track, const Threshold& threshold) {
     plot.draw("band", "u 1:2 w l lw 1.5 lc rgb '#0072b2'");
     plot.draw("path", "u 1:2 w l lw 1 lc rgb '#a0a0a0'");
     plot.draw("right", "u 1:2 w p pt 7 ps 0.35 lc rgb '#333333'");
-    plot.draw("wrong", "u 1:2 w p pt 2 ps 0.65 lw 1.5 lc rgb '#d55e00'");
+    plot.draw("wrong", "u 1:2 w p pt 2 ps 0.75 lw 1.8 lc rgb '#d55e00'");
     const Condition& c = track.condition;
     panels.add("set title " +
                    quoted(std::string(name(c.pattern)) + " " + format_number(100 * c.contrast) +
                           " %, a = " + format_number(c.texel_px) + " px" + (threshold.bounded ? "" : ", not bounded")) +
-                   "\nset xrange [0:" + std::to_string(n + 1) + "]\nset yrange [0:" + format_number(top) + "]\n",
+                   "\nset xrange [0:" + std::to_string(n + 1) + "]\nset xtics " +
+                   format_number(tic_step(static_cast<double>(n + 1), 5)) + "\nset ytics " +
+                   format_number(tic_step(top, 5)) + "\nset yrange [0:" + format_number(top) + "]\n",
                plot);
 }
 
@@ -72,7 +74,7 @@ std::string convergence_figure(const std::vector<Track>& tracks, const std::vect
         const auto key = [](const Condition& c) { return std::tuple(c.kernel, c.pattern, -c.contrast, c.texel_px); };
         return key(a.condition) < key(b.condition);
     });
-    Panels panels({.columns = 4, .panel_height = 165, .left = 42, .right = 10, .top = 24, .bottom = 24, .font = 11});
+    Panels panels({.columns = 4, .panel_height = 165, .left = 44, .right = 10, .top = 24, .bottom = 28, .font = 11});
     for (const Track& track : ordered) add_track(panels, track, threshold_of(track, thresholds));
     return panels.svg();
 }

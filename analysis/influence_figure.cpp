@@ -88,7 +88,8 @@ std::string influence_figure(const Law& law, const std::vector<Influence>& influ
         plot.draw("plain", "u 1:2 w p pt 6 ps 0.6 lw 1.3" + rgb + "notitle");
         plot.draw("flagged", "u 1:2 w p pt 7 ps 0.9" + rgb + "notitle");
         panels.add("set title " + quoted(describe({c.pattern, c.contrast, c.kernel})) +
-                       "\nset grid xtics noytics\nset xlabel 'change of c, %'\nset ytics (" + tics + ")\nset xrange [" +
+                       "\nset grid xtics noytics\nset xlabel 'change of c, %'\nset xtics " +
+                       format_number(tic_step(230 * largest, 6)) + "\nset ytics (" + tics + ")\nset xrange [" +
                        format_fixed(-115 * largest, 3) + ":" + format_fixed(115 * largest, 3) + "]\nset yrange [" +
                        std::to_string(-static_cast<long>(most_rows)) +
                        ":1]\n"

@@ -87,7 +87,10 @@ std::string law_figure(const LawFit& fit, const std::vector<ReferencePoint>& ref
     }
     const auto title_of = [](double contrast) { return "contrast " + format_number(100 * contrast) + " %"; };
 
-    Panels panels({.columns = std::max<int>(2, static_cast<int>(contrasts.size())), .panel_height = 400, .bottom = 56});
+    Panels panels({.columns = std::max<int>(2, static_cast<int>(contrasts.size())),
+                   .panel_height = 408,
+                   .left = 66,
+                   .bottom = 58});
     for (const double contrast : contrasts) {
         Plot plot;
         double shift = -largest_texel * 0.008;
@@ -134,7 +137,8 @@ std::string law_figure(const LawFit& fit, const std::vector<ReferencePoint>& ref
         panels.add("set title " + quoted(title_of(contrast) + ", beside the reference filter size") +
                        "\nset key bottom right samplen 2.4 spacing 1.1\nset logscale xy\nset grid xtics ytics\n"
                        "set xlabel 'texel size a on screen, px'\nset ylabel 'filter radius r, px'\n" +
-                       tics_at(texels) + range("x", smallest_texel / 1.15, largest_texel * 1.15) +
+                       "set ytics (1,2,5,10,20,50,100,200,500,1000)\n" + tics_at(texels) +
+                       range("x", smallest_texel / 1.15, largest_texel * 1.15) +
                        range("y", smallest_radius / 2.5, std::max(largest_radius, largest_reference) * 1.2),
                    plot);
     }

@@ -90,7 +90,7 @@ std::string aligned_rows(const std::vector<Row>& rows) {
 }
 
 std::string p_text(double p) {
-    return p < 0.0001 ? "< .0001" : format_fixed(p, 4);
+    return p < 0.0001 ? "< 0.0001" : format_fixed(p, 4);
 }
 
 std::string law_table(const Law& law) {

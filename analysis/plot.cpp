@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "stimuli/io/gnuplot.h"
 #include "stimuli/number.h"
@@ -25,6 +26,15 @@ std::string shortened(const std::string& text, size_t bytes) {
     if (text.size() <= bytes) return text;
     while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xc0) == 0x80) --bytes;
     return text.substr(0, bytes);
+}
+
+double tic_step(double range, int most) {
+    const double least = range / most;
+    const double power = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double step : {1.0, 2.0, 5.0}) {
+        if (step * power >= least * (1 - 1e-9)) return step * power;
+    }
+    return 10 * power;
 }
 
 std::ostringstream& Plot::block(const std::string& name) {
@@ -65,7 +75,7 @@ std::string Panels::svg() const {
     const int height = rows * layout_.panel_height;
     const double column_width = static_cast<double>(layout_.width) / layout_.columns;
     std::string script = "set termoption noenhanced\nset termoption font 'Helvetica," + std::to_string(layout_.font) +
-                         "'\nset multiplot\n";
+                         "'\nset multiplot\nset tics scale 0.6,0.3\n";
     for (size_t i = 0; i < panels_.size(); ++i) {
         if (panels_[i].empty()) continue;
         const int row = static_cast<int>(i) / layout_.columns;
@@ -73,14 +83,16 @@ std::string Panels::svg() const {
         const auto x = [&](double px) { return format_fixed((column * column_width + px) / layout_.width, 6); };
         const auto y = [&](double px) { return format_fixed(1 - (row * layout_.panel_height + px) / height, 6); };
         script +=
-            "unset key\nunset label\nunset arrow\nunset logscale\nset xtics autofreq\nset ytics autofreq\n"
-            "set title ''\nset xlabel ''\nset ylabel ''\nset grid noxtics ytics\n"
+            "unset key\nunset label\nunset arrow\nunset logscale\nset xtics autofreq offset 0,0.35\nset ytics autofreq "
+            "offset 0.5,0\n"
+            "set title '' offset 0,-0.6\nset xlabel '' offset 0,0.75\nset ylabel '' offset 1.2,0\nset grid noxtics "
+            "ytics\n"
             "set lmargin at screen " +
             x(layout_.left) + "\nset rmargin at screen " + x(column_width - layout_.right) +
             "\nset tmargin at screen " + y(layout_.top) + "\nset bmargin at screen " +
             y(layout_.panel_height - layout_.bottom) + "\n" + panels_[i];
     }
-    return draw_svg(script + "unset multiplot\n", layout_.width, height);
+    return draw_svg(script + "unset multiplot\nset tics scale 0.6,0.3\n", layout_.width, height);
 }
 
 }  // namespace stairstep

@@ -21,6 +21,9 @@ std::string quoted(const std::string& text);
 /// The first `bytes` of a text at most, no character cut in two.
 std::string shortened(const std::string& text, size_t bytes);
 
+/// The smallest of 1, 2, 5, 10, 20, … (and .5, .2, .1, …) that divides `range` > 0 into at most `most` parts.
+double tic_step(double range, int most);
+
 /// What one panel draws: data blocks ($name << EOD) and the parts of the plot command that draw them.
 class Plot {
   public:
@@ -44,9 +47,9 @@ class Panels {
     /// All px. Around each panel's axes: room for title and labels.
     struct Layout {
         int columns = 1;
-        int width = 960;
+        int width = 1020;
         int panel_height = 240;
-        int left = 62, right = 14, top = 28, bottom = 50;
+        int left = 62, right = 14, top = 28, bottom = 44;
         int font = 13;
     };
     explicit Panels(const Layout& layout) : layout_(layout) {}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <deque>
 #include <map>
 
 #include "analysis/binomial_interval.h"
@@ -90,26 +91,40 @@ std::string right_range(const std::vector<ResponseBin>& bins) {
 
 }  // namespace
 
-std::vector<ResponseBin> binned(const std::vector<double>& strengths, const std::vector<Trial>& trials, double width) {
+std::vector<ResponseBin> binned(const std::vector<double>& strengths, const std::vector<Trial>& trials, double width,
+                                int least) {
     assert(strengths.size() == trials.size() && width > 0);
-    std::map<double, ResponseBin> bins;
-    std::map<double, std::vector<Trial>> members;
+    std::map<double, std::vector<size_t>> cells;
     for (size_t i = 0; i < trials.size(); ++i) {
         assert(std::isfinite(strengths[i]));
-        const double at = std::floor(strengths[i] / width);
-        ResponseBin& bin = bins[at];
-        bin.strength += strengths[i];
-        ++bin.trials;
-        bin.right += trials[i].correct();
-        members[at].push_back(trials[i]);
+        cells[std::floor(strengths[i] / width)].push_back(i);
     }
-    std::vector<ResponseBin> result;
-    for (auto& [at, bin] : bins) {
-        bin.strength /= bin.trials;
-        bin.counts = response_counts(members[at]);
-        result.push_back(bin);
+    std::deque<std::vector<size_t>> groups;
+    for (auto& [at, members] : cells) groups.push_back(std::move(members));
+    const auto is_small = [&](const std::vector<size_t>& group) { return static_cast<int>(group.size()) < least; };
+    while (groups.size() > 1 && is_small(groups.front())) {
+        groups[1].insert(groups[1].end(), groups[0].begin(), groups[0].end());
+        groups.pop_front();
     }
-    return result;
+    while (groups.size() > 1 && is_small(groups.back())) {
+        auto& next = groups[groups.size() - 2];
+        next.insert(next.end(), groups.back().begin(), groups.back().end());
+        groups.pop_back();
+    }
+    std::vector<ResponseBin> bins;
+    for (const std::vector<size_t>& group : groups) {
+        ResponseBin bin;
+        std::vector<Trial> members;
+        for (const size_t i : group) {
+            bin.strength += strengths[i] / static_cast<double>(group.size());
+            bin.right += trials[i].correct();
+            members.push_back(trials[i]);
+        }
+        bin.trials = static_cast<int>(group.size());
+        bin.counts = response_counts(members);
+        bins.push_back(bin);
+    }
+    return bins;
 }
 
 std::vector<ResponseBin> pooled_bins(const StudyCheck& check, const ConditionName& condition) {
@@ -122,26 +137,27 @@ std::vector<ResponseBin> pooled_bins(const StudyCheck& check, const ConditionNam
             trials.push_back(curve.trials[i]);
         }
     }
-    return binned(strengths, trials, kPooledBinWidth);
+    return binned(strengths, trials, kPooledBinWidth, kLeastInPooledBin);
 }
 
 std::vector<ResponseBin> observer_bins(const ObserverCurve& curve) {
     std::vector<double> strengths;
     for (const Answer01& answer : curve.answers) strengths.push_back(answer.strength);
-    return binned(strengths, curve.trials, kObserverBinWidth);
+    return binned(strengths, curve.trials, kObserverBinWidth, kLeastInObserverBin);
 }
 
 std::string pooled_psychometric_figure(const StudyCheck& check) {
     const bool yes_no = is_yes_no(check);
     const int columns = std::max<int>(2, static_cast<int>(check.conditions.size()));
-    Panels panels({.columns = columns, .panel_height = 280, .left = 54, .right = 12, .bottom = 54, .font = 12});
+    Panels panels({.columns = columns, .panel_height = 270, .left = 58, .right = 12, .bottom = 48, .font = 12});
     std::vector<std::vector<ResponseBin>> bins;
     Span span;
     for (const ConditionCheck& c : check.conditions) {
         bins.push_back(pooled_bins(check, c.condition));
         span.take(bins.back());
     }
-    const std::string x_axis = "set xlabel 'log10(c_j a/r)'\n" + span.xrange() + "set xtics 0.5\n";
+    const std::string x_axis = "set xlabel 'log10(c_j a/r)'\n" + span.xrange() + "set xtics " +
+                               format_number(tic_step(span.high - span.low + 0.1, 4)) + "\n";
     for (size_t i = 0; i < check.conditions.size(); ++i) {
         const ConditionCheck& c = check.conditions[i];
         Plot plot;
@@ -171,7 +187,7 @@ std::string pooled_psychometric_figure(const StudyCheck& check) {
                 colour(check.conditions[i].condition.pattern), 7, "artifacts");
             panels.add(x_axis + "set yrange [-0.02:1.03]\n" +
                            (i == 0 ? "set ylabel 'share said to be artifacts'\n"
-                                     "set key top left reverse Left samplen 0.8 font ',11'\n"
+                                     "set key right center reverse Left samplen 0.8 font ',11'\n"
                                    : ""),
                        plot);
         }
@@ -194,7 +210,7 @@ std::string observer_psychometric_figure(const StudyCheck& check) {
         bins.push_back(observer_bins(*curve));
         span.take(bins.back());
     }
-    Panels panels({.columns = 4, .panel_height = 150, .left = 40, .right = 10, .top = 24, .bottom = 22, .font = 11});
+    Panels panels({.columns = 4, .panel_height = 150, .left = 44, .right = 10, .top = 24, .bottom = 26, .font = 11});
     for (size_t i = 0; i < curves.size(); ++i) {
         const ObserverCurve& curve = *curves[i];
         Plot plot;
@@ -207,7 +223,8 @@ std::string observer_psychometric_figure(const StudyCheck& check) {
         panels.add("set title " +
                        quoted(curve.observer + ": " + std::string(name(curve.condition.pattern)) + " " +
                               format_number(100 * curve.condition.contrast) + " %") +
-                       "\n" + span.xrange() + "set xtics 0.5\nset ytics 0.25\nset yrange [0:1.05]\n" + mark,
+                       "\n" + span.xrange() + "set xtics " + format_number(tic_step(span.high - span.low + 0.1, 4)) +
+                       "\nset ytics 0.25\nset yrange [0:1.05]\n" + mark,
                    plot);
     }
     return panels.svg();

@@ -23,12 +23,16 @@ struct ResponseBin {
 };
 
 /// log10 units: pooled over a condition, where there are many trials, and for one observer.
-constexpr double kPooledBinWidth = 0.08;
-constexpr double kObserverBinWidth = 0.15;
+constexpr double kPooledBinWidth = 0.06;
+constexpr double kObserverBinWidth = 0.12;
+/// An outermost bin of fewer trials joins its neighbour: far from the threshold, where trials are few, the curve is flat.
+constexpr int kLeastInPooledBin = 12;
+constexpr int kLeastInObserverBin = 6;
 
-/// Bins of one width with edges at multiples of it, ascending, without empty ones: their counts sum to the trials.
-/// strengths[i] is that of trials[i], finite (asserted).
-std::vector<ResponseBin> binned(const std::vector<double>& strengths, const std::vector<Trial>& trials, double width);
+/// Bins of one width with edges at multiples of it, ascending, without empty ones, the outermost joined to their neighbours until
+/// they have `least` trials: their counts sum to the trials. strengths[i] is that of trials[i], finite (asserted).
+std::vector<ResponseBin> binned(const std::vector<double>& strengths, const std::vector<Trial>& trials, double width,
+                                int least);
 
 /// All aligned trials of one condition.
 std::vector<ResponseBin> pooled_bins(const StudyCheck& check, const ConditionName& condition);

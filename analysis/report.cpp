@@ -60,8 +60,8 @@ std::string missing_references(const std::vector<ReferencePoint>& references) {
     const auto missing =
         std::count_if(references.begin(), references.end(), [](const ReferencePoint& r) { return !r.radius_px; });
     if (missing == 0) return "";
-    return " " + std::to_string(missing) + " of " + std::to_string(references.size()) + " reference sizes lie above " +
-           format_number(kLargestReferenceRadius) + " px and aren't shown.";
+    return " Not reached up to " + format_number(kLargestReferenceRadius) +
+           " px, and not shown: " + std::to_string(missing) + " of " + std::to_string(references.size()) + ".";
 }
 
 std::string methods_html(const std::vector<std::string>& paragraphs) {
@@ -74,6 +74,9 @@ std::string methods_html(const std::vector<std::string>& paragraphs) {
 
 Report make_report(const std::vector<Trial>& trials, const LawFit& fit, const ReportInputs& inputs) {
     const Law& law = fit.law;
+    // First what may be refused.
+    const std::string contact_sheet = inputs.contact_sheet.empty() ? "" : contact_sheet_section(inputs.contact_sheet);
+    const std::string renderings = inputs.render_stats.empty() ? "" : renderings_section(inputs.render_stats);
     PictureSize picture;
     if (const auto& design = inputs.background.design) picture = {design->width_px, design->height_px};
     const std::vector<ReferencePoint> references = reference_points(fit, picture, inputs.check.jobs);
@@ -108,6 +111,7 @@ Report make_report(const std::vector<Trial>& trials, const LawFit& fit, const Re
         .set("budget", budget_html(law))
         .set("warnings", warnings_list(fit.warnings))
         .set("law_figure", figure("law.svg", law_figure(fit, references)))
+        .text("picture", std::to_string(picture.width_px) + " × " + std::to_string(picture.height_px))
         .text("missing_references", missing_references(references))
         .set("psychometric_figure", figure("psychometric.svg", pooled_psychometric_figure(check)))
         .set("observer_curves", figure("psychometric-observers.svg", observer_psychometric_figure(check)))
@@ -121,8 +125,8 @@ Report make_report(const std::vector<Trial>& trials, const LawFit& fit, const Re
         .text("simulations", std::to_string(check.simulations))
         .set("estimates", estimates_html(law, robust))
         .set("methods", methods_html(methods))
-        .set("contact_sheet", inputs.contact_sheet.empty() ? "" : contact_sheet_section(inputs.contact_sheet))
-        .set("renderings", inputs.render_stats.empty() ? "" : renderings_section(inputs.render_stats));
+        .set("contact_sheet", contact_sheet)
+        .set("renderings", renderings);
     report.html = page.html();
 
     std::string methods_text;

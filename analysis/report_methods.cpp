@@ -23,6 +23,13 @@ std::string listed(const std::vector<std::string>& parts) {
     return text;
 }
 
+/// Of things that have commas in them.
+std::string with_semicolons(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
+    return text;
+}
+
 template <typename Set, typename Text>
 std::string listed_set(const Set& set, const Text& text) {
     std::vector<std::string> parts;
@@ -69,12 +76,13 @@ std::string design_paragraph(const StudyBackground& background, const std::vecto
         (trial.task == Task::yes_no ? yes_no : forced) = true;
     }
     const auto itself = [](const std::string& text) { return text; };
-    std::string text =
-        "Design. Edges of filtered shadows with artifacts of the pattern " + listed_set(patterns, itself) +
-        " were shown at " + (contrasts.size() == 1 ? "a contrast of " : "contrasts of ") +
-        listed_set(contrasts, [](double c) { return format_number(100 * c) + " %"; }) + " with shadow-map texels of " +
-        listed_set(texels, [](double a) { return format_number(a); }) + " px on screen under a filter of shape " +
-        listed_set(kernels, itself) + ", the radius of which was varied.";
+    std::string text = "Design. Edges of filtered shadows with artifacts of the " +
+                       std::string(patterns.size() == 1 ? "pattern " : "patterns ") + listed_set(patterns, itself) +
+                       " were shown at " + (contrasts.size() == 1 ? "a contrast of " : "contrasts of ") +
+                       listed_set(contrasts, [](double c) { return format_number(100 * c) + " %"; }) +
+                       " with shadow-map texels of " + listed_set(texels, [](double a) { return format_number(a); }) +
+                       " px on screen under a filter of shape " + listed_set(kernels, itself) +
+                       ", the radius of which was varied.";
     if (yes_no) {
         text += " The task was yes-no, “is it an artifact or a line?”; " +
                 format_fixed(100.0 * static_cast<double>(lines) / static_cast<double>(trials.size()), 1) +
@@ -125,7 +133,7 @@ std::string exclusions_paragraph(const StudyBackground& background, const std::v
     }
     if (unbounded.empty()) return text + " No track was left out.";
     return text + " Left out of the law because their trials don't bound the threshold: " +
-           count_of(unbounded.size(), "track") + " (" + listed(unbounded) + ").";
+           count_of(unbounded.size(), "track") + " (" + with_semicolons(unbounded) + ").";
 }
 
 std::string analysis_paragraph(const LawFit& fit) {

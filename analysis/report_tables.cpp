@@ -17,13 +17,20 @@ using Rows = std::vector<std::vector<std::string>>;
 /// Lists in a cell or sentence name so many, and count the rest.
 constexpr size_t kMostNamed = 8;
 
+/// A number with a typographer's minus, and zero without one.
+std::string fixed(double value, int decimals) {
+    std::string text = format_fixed(value, decimals);
+    if (text.find_first_not_of("-0.") == std::string::npos) text = format_fixed(0, decimals);
+    return text.starts_with('-') ? "−" + text.substr(1) : text;
+}
+
 std::string to(const Interval& interval, int decimals) {
-    return format_fixed(interval.first, decimals) + " to " + format_fixed(interval.second, decimals);
+    return fixed(interval.first, decimals) + " to " + fixed(interval.second, decimals);
 }
 
 std::string with_brackets(double value, const Interval& interval, int decimals) {
-    return format_fixed(value, decimals) + " [" + format_fixed(interval.first, decimals) + ", " +
-           format_fixed(interval.second, decimals) + "]";
+    return fixed(value, decimals) + " [" + fixed(interval.first, decimals) + ", " + fixed(interval.second, decimals) +
+           "]";
 }
 
 std::string described(const ConditionLaw& c) {
@@ -31,7 +38,7 @@ std::string described(const ConditionLaw& c) {
 }
 
 std::string percent(double share, int decimals = 0) {
-    return format_fixed(100 * share, decimals) + " %";
+    return fixed(100 * share, decimals) + " %";
 }
 
 std::string p_or_dash(const std::optional<double>& p) {
@@ -73,7 +80,7 @@ std::string down_weighted_cell(const ConditionLaw& law) {
 std::string lapse_cell(const std::optional<PsychometricFit>& fit) {
     constexpr size_t kLapse = 2;
     if (!fit || !fit->estimated) return "–";
-    const std::string value = format_fixed(fit->parameters.lapse, 3);
+    const std::string value = fixed(fit->parameters.lapse, 3);
     if (const auto interval = lapse_interval(*fit)) return with_brackets(fit->parameters.lapse, *interval, 3);
     return value + (fit->at_bound[kLapse] ? " (at its bound)" : "");
 }
@@ -83,7 +90,7 @@ std::string lapse_cell(const std::optional<PsychometricFit>& fit) {
 std::string law_html(const Law& law) {
     Rows rows;
     for (const ConditionLaw& c : law.conditions) {
-        rows.push_back({described(c), format_fixed(c.slope, 2), to(c.slope_ci95, 2), format_fixed(c.tau_ln, 2),
+        rows.push_back({described(c), fixed(c.slope, 2), to(c.slope_ci95, 2), fixed(c.tau_ln, 2),
                         c.has_form ? with_brackets(c.intercept_px, c.intercept_ci95, 1) : "–",
                         c.has_form ? with_brackets(c.exponent, c.exponent_ci95, 2) : "–", std::to_string(c.observers),
                         std::to_string(c.trials)});
@@ -95,7 +102,7 @@ std::string law_html(const Law& law) {
 std::string comparisons_html(const Law& law) {
     Rows rows;
     for (const Comparison& c : law.comparisons) {
-        rows.push_back({describe(c.first) + " / " + describe(c.second), format_fixed(c.ratio, 2), to(c.ratio_ci95, 2),
+        rows.push_back({describe(c.first) + " / " + describe(c.second), fixed(c.ratio, 2), to(c.ratio_ci95, 2),
                         p_text(c.p), p_text(c.p_holm), std::to_string(c.observers)});
     }
     return html_table(
@@ -114,7 +121,7 @@ std::string budget_html(const Law& law) {
     Rows rows;
     for (const CriterionLaw& c : law.criteria) {
         std::vector<std::string> row{format_number(std::round(1000 * c.threshold_probability) / 10) + " % right",
-                                     format_fixed(c.slope, 2), to(c.slope_ci95, 2)};
+                                     fixed(c.slope, 2), to(c.slope_ci95, 2)};
         for (const double extent : kExtents) {
             for (const double radius : kRadii) {
                 const MapSize size = shadow_map_size({.slope = c.slope, .radius = radius, .extent = extent});
@@ -128,6 +135,7 @@ std::string budget_html(const Law& law) {
 
 std::string estimates_html(const Law& law, const Law& robust) {
     Rows rows;
+    std::string less;
     for (const ConditionLaw& c : law.conditions) {
         const auto other = std::find_if(robust.conditions.begin(), robust.conditions.end(), [&](const ConditionLaw& r) {
             return r.pattern == c.pattern && r.contrast == c.contrast && r.kernel == c.kernel;
@@ -135,12 +143,15 @@ std::string estimates_html(const Law& law, const Law& robust) {
         const bool has_robust = other != robust.conditions.end();
         rows.push_back({described(c), with_brackets(c.slope, c.slope_ci95, 2), estimate_cell(c, "mean-t"),
                         estimate_cell(c, "linear-t"), estimate_cell(c, "profile"), estimate_cell(c, "posterior"),
-                        has_robust ? with_brackets(other->slope, other->slope_ci95, 2) : "–",
-                        has_robust ? down_weighted_cell(*other) : "–"});
+                        has_robust ? with_brackets(other->slope, other->slope_ci95, 2) : "–"});
+        if (has_robust) less += "<li>" + escaped(described(c) + ": " + down_weighted_cell(*other)) + "</li>\n";
     }
-    return html_table({"condition", "c as above", "plain mean", "linear, in px", "profile", "posterior", "robust",
-                       "counts less in it"},
-                      rows);
+    return html_table({"condition", "c as above", "plain mean", "linear, in px", "profile", "posterior", "robust"},
+                      rows) +
+           (less.empty()
+                ? ""
+                : "<p>What the robust fit trusts less, and the share of its weight that it keeps:</p>\n<ul>\n" + less +
+                      "</ul>\n");
 }
 
 std::string observers_html(const StudyCheck& check) {
@@ -163,10 +174,10 @@ std::string conditions_html(const StudyCheck& check) {
     Rows rows;
     for (const ConditionCheck& c : check.conditions) {
         rows.push_back({describe(c.condition),
-                        c.aligned && c.aligned->estimated ? format_fixed(c.aligned->parameters.slope, 2) : "–",
+                        c.aligned && c.aligned->estimated ? fixed(c.aligned->parameters.slope, 2) : "–",
                         lapse_cell(c.aligned), p_or_dash(c.deviance_p), p_or_dash(c.prediction_p), p_or_dash(c.order_p),
-                        c.scatter_df > 0 ? format_fixed(std::sqrt(c.scatter_chi2 / c.scatter_df), 2) : "–",
-                        p_or_dash(c.scatter_p), c.overdispersion ? format_fixed(*c.overdispersion, 2) : "–"});
+                        c.scatter_df > 0 ? fixed(std::sqrt(c.scatter_chi2 / c.scatter_df), 2) : "–",
+                        p_or_dash(c.scatter_p), c.overdispersion ? fixed(*c.overdispersion, 2) : "–"});
     }
     return html_table({"condition", "steepness b", "lapses δ", "p, deviance", "p, prediction", "p, order",
                        "Birge ratio", "p, scatter", "η"},
@@ -189,9 +200,9 @@ std::string residual_sentence(const std::vector<ResidualGroup>& groups) {
     for (const ResidualGroup& g : groups) {
         if (std::abs(g.residual) <= kLargeResidual) continue;
         names.push_back(g.observer + " (" + describe(g.condition) + ", by " +
-                        (g.order == ResidualOrder::prediction ? "prediction at " + format_fixed(g.position, 2)
-                                                              : "trial at " + format_fixed(g.position, 0)) +
-                        ": " + format_fixed(g.residual, 1) + ")");
+                        (g.order == ResidualOrder::prediction ? "prediction at " + fixed(g.position, 2)
+                                                              : "trial at " + fixed(g.position, 0)) +
+                        ": " + fixed(g.residual, 1) + ")");
     }
     const std::string count =
         "Of " + std::to_string(groups.size()) + " groups, beyond ± " + format_number(kLargeResidual) + ": ";

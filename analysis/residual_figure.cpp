@@ -92,7 +92,7 @@ std::string residual_figure(const StudyCheck& check, const std::vector<ResidualG
             least_prediction = std::min(least_prediction, g.position);
         }
     }
-    Panels panels({.columns = columns, .panel_height = 240, .left = 50, .right = 12, .bottom = 50, .font = 12});
+    Panels panels({.columns = columns, .panel_height = 240, .left = 54, .right = 12, .bottom = 50, .font = 12});
     for (const ResidualOrder order : {ResidualOrder::prediction, ResidualOrder::trial}) {
         for (int i = 0; i < columns; ++i) {
             if (i >= static_cast<int>(check.conditions.size())) {
@@ -107,15 +107,15 @@ std::string residual_figure(const StudyCheck& check, const std::vector<ResidualG
                     own.push_back(&g);
                 }
             }
-            std::string settings =
-                "set yrange [" + format_fixed(-largest, 2) + ":" + format_fixed(largest, 2) + "]\nset ytics 2\n";
+            std::string settings = "set yrange [" + format_fixed(-largest, 2) + ":" + format_fixed(largest, 2) +
+                                   "]\nset ytics " + format_number(tic_step(2 * largest, 8)) + "\n";
             if (order == ResidualOrder::prediction) {
                 const double low = std::min(0.48, least_prediction - 0.02);
                 settings += "set title " + quoted(describe(condition)) + "\nset xlabel 'predicted share right'\n" +
                             "set xrange [" + format_fixed(low, 3) + ":1.01]\nset xtics 0.1\n";
             } else {
-                settings +=
-                    "set xlabel 'trial in the condition'\nset xrange [0:" + format_fixed(last_trial + 1, 0) + "]\n";
+                settings += "set xlabel 'trial in the condition'\nset xrange [0:" + format_fixed(last_trial + 1, 0) +
+                            "]\nset xtics " + format_number(tic_step(last_trial, 5)) + "\n";
             }
             if (i == 0) settings += "set ylabel 'deviance residual'\n";
             panels.add(settings, plot_of(own, condition));
