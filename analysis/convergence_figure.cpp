@@ -74,7 +74,7 @@ std::string convergence_figure(const std::vector<Track>& tracks, const std::vect
         const auto key = [](const Condition& c) { return std::tuple(c.kernel, c.pattern, -c.contrast, c.texel_px); };
         return key(a.condition) < key(b.condition);
     });
-    Panels panels({.columns = 4, .panel_height = 165, .left = 44, .right = 10, .top = 24, .bottom = 28, .font = 11});
+    Panels panels({.columns = 4, .panel_height = 165, .left = 44, .right = 10, .top = 24, .bottom = 28, .font = 12});
     for (const Track& track : ordered) add_track(panels, track, threshold_of(track, thresholds));
     return panels.svg();
 }

@@ -210,7 +210,7 @@ std::string observer_psychometric_figure(const StudyCheck& check) {
         bins.push_back(observer_bins(*curve));
         span.take(bins.back());
     }
-    Panels panels({.columns = 4, .panel_height = 150, .left = 44, .right = 10, .top = 24, .bottom = 26, .font = 11});
+    Panels panels({.columns = 4, .panel_height = 150, .left = 44, .right = 10, .top = 24, .bottom = 26, .font = 12});
     for (size_t i = 0; i < curves.size(); ++i) {
         const ObserverCurve& curve = *curves[i];
         Plot plot;

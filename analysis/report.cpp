@@ -77,7 +77,7 @@ Report make_report(const std::vector<Trial>& trials, const LawFit& fit, const Re
     // First what may be refused.
     const std::string contact_sheet = inputs.contact_sheet.empty() ? "" : contact_sheet_section(inputs.contact_sheet);
     const std::string renderings = inputs.render_stats.empty() ? "" : renderings_section(inputs.render_stats);
-    PictureSize picture;
+    PictureSize picture = inputs.picture;
     if (const auto& design = inputs.background.design) picture = {design->width_px, design->height_px};
     const std::vector<ReferencePoint> references = reference_points(fit, picture, inputs.check.jobs);
     const StudyCheck check = check_study(trials, fit, inputs.check);

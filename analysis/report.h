@@ -19,6 +19,8 @@ struct ReportInputs {
     /// stats.json of stairstep-render; pictures are looked for beside it.
     std::string render_stats{};
     StudyBackground background{};
+    /// What reference filter sizes are of where the background has no design.
+    PictureSize picture{};
     StudyCheckOptions check{};
 };
 

@@ -146,13 +146,12 @@ std::string analysis_paragraph(const LawFit& fit) {
         "observer's thresholds of a condition in logarithms, weighted by their standard deviations. The slope of a "
         "condition over observers: " +
         (law.conditions.empty() ? "" : law.conditions.front().slope_method) + ".";
-    if (!law.slope_method.empty())
-        text += " The law is that of the condition with the largest slope: " + law.slope_method + ".";
+    if (!law.slope_method.empty()) text += " The law is the worst case: " + law.slope_method + ".";
     if (!law.comparisons.empty()) {
-        text += " Conditions were compared observer by observer: " + law.comparisons.front().method +
-                "; p values were adjusted for " + count_of(law.comparisons.size(), "comparison") +
-                " by Holm's method. All intervals are of 95 %.";
+        text += " Conditions were compared observer by observer (" + count_of(law.comparisons.size(), "comparison") +
+                "): " + law.comparisons.front().method + ".";
     }
+    text += " All intervals are of 95 %.";
     return text;
 }
 

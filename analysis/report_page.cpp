@@ -72,7 +72,15 @@ std::string embedded_png(const std::filesystem::path& path, const std::string& d
 }
 
 std::string inline_svg(const std::string& svg) {
-    return svg.substr(svg.find("<svg"));
+    std::string part;
+    for (size_t i = svg.find("<svg"); i < svg.size(); ++i) {
+        if (svg[i] == '{') {
+            part += "&#123;";  // a name in the figure could look like a place of the template
+        } else {
+            part += svg[i];
+        }
+    }
+    return part;
 }
 
 }  // namespace stairstep

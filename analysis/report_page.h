@@ -31,7 +31,7 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
 /// An <img> with the PNG in it. Throws InputError for a file that is missing or no PNG.
 std::string embedded_png(const std::filesystem::path& path, const std::string& description);
 
-/// An SVG as part of a page: without the XML header, which has no place there, and without what makes it large there.
+/// An SVG as part of a page: without the XML header, which has no place there, and { escaped.
 std::string inline_svg(const std::string& svg);
 
 }  // namespace stairstep

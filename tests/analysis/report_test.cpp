@@ -54,7 +54,9 @@ void expect_sound(const Report& report) {
         EXPECT_TRUE(names.insert(name).second) << name << " twice";
         EXPECT_FALSE(text.empty()) << name;
         EXPECT_FALSE(has_no_number(text)) << name;
-        if (name.ends_with(".csv")) EXPECT_GT(CsvTable::parse(text, name).header().size(), 3u);
+        if (name.ends_with(".csv")) {
+            EXPECT_GT(CsvTable::parse(text, name).header().size(), 3u);
+        }
         if (name.ends_with(".svg")) {
             EXPECT_NE(text.find("</svg>"), std::string::npos) << name;
             // Every figure is in the page as well.
@@ -165,7 +167,7 @@ TEST_F(ReportTest, CopesWithOneSizeFewTrialsAndNoDesign) {
     std::erase_if(trials, [](const Trial& t) {
         return t.condition.texel_px != 5 || t.condition.pattern != Pattern::step || t.trial > 30;
     });
-    expect_sound(make_report(trials, fit_law(trials, 0.82, "a"), {.check = {.simulations = 0}}));
+    expect_sound(make_report(trials, fit_law(trials, 0.82, "a"), {.picture = {160, 120}, .check = {.simulations = 0}}));
 }
 
 /// A track of one trial beside whole ones, and an observer of whom there is nothing else.
