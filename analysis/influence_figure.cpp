@@ -57,7 +57,7 @@ std::string influence_figure(const Law& law, const std::vector<Influence>& influ
     for (const ConditionLaw& c : law.conditions) {
         most_rows = std::max(most_rows, c.without_observer.size() + c.without_size.size());
     }
-    const int columns = std::max<int>(2, static_cast<int>(law.conditions.size()));
+    const int columns = panel_columns(law.conditions.size());
     const int left = 20 + 7 * static_cast<int>(std::min(longest_name, kLongestName));
     Panels panels({.columns = columns,
                    .panel_height = 84 + 17 * static_cast<int>(most_rows),

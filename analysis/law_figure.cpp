@@ -35,14 +35,18 @@ void add_law(Plot& plot, const ConditionLaw& law, double first_texel, double las
     plot.draw(id, "u 1:2 w l lw 2" + rgb + (title.empty() ? "notitle" : "title " + quoted(title)));
 }
 
+std::map<double, std::vector<double>> ln_radii_of(const std::vector<Threshold>& thresholds) {
+    std::map<double, std::vector<double>> ln_radii;
+    for (const Threshold& t : thresholds) ln_radii[t.condition.texel_px].push_back(std::log(t.radius_px()));
+    return ln_radii;
+}
+
 /// Geometric means over observers with 95 % intervals, `shift` px beside their size on even axes, `factor` on logarithmic ones.
 void add_means(Plot& plot, const ConditionLaw& law, const std::vector<Threshold>& thresholds, double shift,
                double factor) {
     const std::string id = std::string(name(law.pattern)) + "_means";
-    std::map<double, std::vector<double>> ln_radii;
-    for (const Threshold& t : thresholds) ln_radii[t.condition.texel_px].push_back(std::log(t.radius_px()));
     auto& means = plot.block(id);
-    for (const auto& [texel_px, values] : ln_radii) {
+    for (const auto& [texel_px, values] : ln_radii_of(thresholds)) {
         if (values.size() < 2) continue;
         const MeanEstimate mean = mean_with_interval(values);
         means << texel_px * factor + shift << ' ' << std::exp(mean.mean) << ' ' << std::exp(mean.ci95.first) << ' '
@@ -85,9 +89,17 @@ std::string law_figure(const LawFit& fit, const std::vector<ReferencePoint>& ref
         contrasts.insert(law.contrast);
         laws.push_back(law);
     }
+    // Room for intervals, unless they dwarf what was measured.
+    double highest = largest_radius;
+    for (const ConditionLaw& law : laws) {
+        for (const auto& [texel_px, values] : ln_radii_of(thresholds_of(fit, law))) {
+            if (values.size() > 1) highest = std::max(highest, std::exp(mean_with_interval(values).ci95.second));
+        }
+    }
+    highest = std::min(highest, 1.6 * largest_radius);
     const auto title_of = [](double contrast) { return "contrast " + format_number(100 * contrast) + " %"; };
 
-    Panels panels({.columns = std::max<int>(2, static_cast<int>(contrasts.size())),
+    Panels panels({.columns = panel_columns(contrasts.size() == 1 ? 2 : contrasts.size()),
                    .panel_height = 408,
                    .left = 66,
                    .bottom = 58});
@@ -111,9 +123,10 @@ std::string law_figure(const LawFit& fit, const std::vector<ReferencePoint>& ref
         panels.add("set title " + quoted(title_of(contrast)) +
                        "\nset key top left reverse Left samplen 1.6 spacing 1.1\n"
                        "set xlabel 'texel size a on screen, px'\nset ylabel 'filter radius r that hides it, px'\n" +
-                       range("x", 0, largest_texel * 1.08) + range("y", 0, largest_radius * 1.05),
+                       range("x", 0, largest_texel * 1.08) + range("y", 0, highest * 1.05),
                    plot);
     }
+    if (contrasts.size() > 1) panels.end_row();
     for (const double contrast : contrasts) {
         Plot plot;
         double factor = 0.985;
@@ -134,12 +147,12 @@ std::string law_figure(const LawFit& fit, const std::vector<ReferencePoint>& ref
             plot.draw(pattern + "_reference", std::string("u 1:2 w lp dt 2 lw 1.5 pt 6 ps 0.9 lc rgb '") +
                                                   colour(law.pattern) + "' title '" + pattern + ": reference'");
         }
-        panels.add("set title " + quoted(title_of(contrast) + ", beside the reference filter size") +
+        panels.add("set title " + quoted(title_of(contrast) + ", with the reference size") +
                        "\nset key bottom right samplen 2.4 spacing 1.1\nset logscale xy\nset grid xtics ytics\n"
                        "set xlabel 'texel size a on screen, px'\nset ylabel 'filter radius r, px'\n" +
                        "set ytics (1,2,5,10,20,50,100,200,500,1000)\n" + tics_at(texels) +
                        range("x", smallest_texel / 1.15, largest_texel * 1.15) +
-                       range("y", smallest_radius / 2.5, std::max(largest_radius, largest_reference) * 1.2),
+                       range("y", smallest_radius / 2.5, std::max(highest, largest_reference) * 1.2),
                    plot);
     }
     return panels.svg();

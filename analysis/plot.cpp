@@ -37,6 +37,18 @@ double tic_step(double range, int most) {
     return 10 * power;
 }
 
+int panel_columns(size_t panels) {
+    int best = 2;
+    const auto empty = [&](int columns) {
+        const size_t n = static_cast<size_t>(columns);
+        return (n - panels % n) % n;
+    };
+    for (const int columns : {3, 4}) {
+        if (empty(columns) <= empty(best) && (panels > 2)) best = columns;
+    }
+    return best;
+}
+
 std::ostringstream& Plot::block(const std::string& name) {
     blocks_.emplace_back(name, std::ostringstream());
     return blocks_.back().second;
@@ -67,6 +79,10 @@ std::string Plot::script() const {
 
 void Panels::add(const std::string& settings, const Plot& plot) {
     panels_.push_back(settings + plot.script());
+}
+
+void Panels::end_row() {
+    while (panels_.size() % static_cast<size_t>(layout_.columns) != 0) panels_.emplace_back();
 }
 
 std::string Panels::svg() const {

@@ -24,6 +24,9 @@ std::string shortened(const std::string& text, size_t bytes);
 /// The smallest of 1, 2, 5, 10, 20, … (and .5, .2, .1, …) that divides `range` > 0 into at most `most` parts.
 double tic_step(double range, int most);
 
+/// 2 to 4 columns for so many panels: those that leave the fewest places empty, rather more than fewer.
+int panel_columns(size_t panels);
+
 /// What one panel draws: data blocks ($name << EOD) and the parts of the plot command that draw them.
 class Plot {
   public:
@@ -58,8 +61,8 @@ class Panels {
     /// the panel before.
     void add(const std::string& settings, const Plot& plot);
 
-    /// Leaves the next place empty.
-    void skip() { panels_.emplace_back(); }
+    /// Leaves the rest of a row that has begun empty.
+    void end_row();
 
     /// Throws FailureError where gnuplot can't draw. A panel at least (asserted).
     std::string svg() const;

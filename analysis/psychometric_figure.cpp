@@ -148,7 +148,7 @@ std::vector<ResponseBin> observer_bins(const ObserverCurve& curve) {
 
 std::string pooled_psychometric_figure(const StudyCheck& check) {
     const bool yes_no = is_yes_no(check);
-    const int columns = std::max<int>(2, static_cast<int>(check.conditions.size()));
+    const int columns = panel_columns(check.conditions.size());
     Panels panels({.columns = columns, .panel_height = 270, .left = 58, .right = 12, .bottom = 48, .font = 12});
     std::vector<std::vector<ResponseBin>> bins;
     Span span;
@@ -168,14 +168,11 @@ std::string pooled_psychometric_figure(const StudyCheck& check) {
             mark = threshold_mark(c.aligned->parameters.threshold, c.aligned->settings.p_threshold);
         }
         panels.add("set title " + quoted(describe(c.condition)) + "\n" + x_axis + right_range(bins[i]) + mark +
-                       (i == 0 ? "set ylabel 'share of right answers'\n" : ""),
+                       (i % static_cast<size_t>(columns) == 0 ? "set ylabel 'share of right answers'\n" : ""),
                    plot);
     }
     if (yes_no) {
-        // A row of its own: the panels before may not fill theirs.
-        for (size_t i = check.conditions.size(); i % static_cast<size_t>(columns) != 0; ++i) {
-            panels.skip();
-        }
+        panels.end_row();
         for (size_t i = 0; i < check.conditions.size(); ++i) {
             Plot plot;
             add_bins(

@@ -13,7 +13,9 @@ namespace stairstep {
 namespace {
 
 /// Positions of this many classes get a mean over observers each.
-constexpr int kMeanClasses = 8;
+constexpr size_t kMeanClasses = 8;
+/// … of this many groups at least.
+constexpr size_t kLeastInMean = 5;
 
 void add_groups(std::vector<ResidualGroup>& groups, const ObserverCurve& curve, ResidualOrder order) {
     const size_t n = curve.answers.size();
@@ -53,15 +55,19 @@ Plot plot_of(const std::vector<const ResidualGroup*>& groups, const ConditionNam
         points << format_fixed(g->position, 4) << ' ' << format_fixed(g->residual, 4) << '\n';
     }
     auto& means = plot.block("means");
-    const size_t classes = std::min<size_t>(kMeanClasses, sorted.size());
-    for (size_t k = 0; k < classes; ++k) {
+    const size_t n = sorted.size();
+    const size_t classes = std::clamp<size_t>(n / kLeastInMean, 1, kMeanClasses);
+    for (size_t k = 0, first = 0; k < classes && first < n; ++k) {
+        size_t last = std::max(first + 1, (k + 1) * n / classes);
+        // Equal positions stay together.
+        while (last < n && sorted[last]->position == sorted[last - 1]->position) ++last;
         double position = 0, residual = 0;
-        const size_t first = k * sorted.size() / classes, last = (k + 1) * sorted.size() / classes;
         for (size_t i = first; i < last; ++i) {
             position += sorted[i]->position / static_cast<double>(last - first);
             residual += sorted[i]->residual / static_cast<double>(last - first);
         }
         means << format_fixed(position, 4) << ' ' << format_fixed(residual, 4) << '\n';
+        first = last;
     }
     const std::string rgb = std::string(" lc rgb '") + colour(condition.pattern) + "' notitle";
     plot.draw("points", "u 1:2 w p pt 7 ps 0.35" + rgb);
@@ -82,7 +88,7 @@ std::vector<ResidualGroup> residual_groups(const StudyCheck& check) {
 }
 
 std::string residual_figure(const StudyCheck& check, const std::vector<ResidualGroup>& groups) {
-    const int columns = std::max<int>(2, static_cast<int>(check.conditions.size()));
+    const int columns = panel_columns(check.conditions.size());
     double largest = 3.2, last_trial = 1, least_prediction = 1;
     for (const ResidualGroup& g : groups) {
         largest = std::max(largest, 1.05 * std::abs(g.residual));
@@ -94,12 +100,9 @@ std::string residual_figure(const StudyCheck& check, const std::vector<ResidualG
     }
     Panels panels({.columns = columns, .panel_height = 240, .left = 54, .right = 12, .bottom = 50, .font = 12});
     for (const ResidualOrder order : {ResidualOrder::prediction, ResidualOrder::trial}) {
-        for (int i = 0; i < columns; ++i) {
-            if (i >= static_cast<int>(check.conditions.size())) {
-                panels.skip();
-                continue;
-            }
-            const ConditionName& condition = check.conditions[static_cast<size_t>(i)].condition;
+        panels.end_row();
+        for (size_t i = 0; i < check.conditions.size(); ++i) {
+            const ConditionName& condition = check.conditions[i].condition;
             std::vector<const ResidualGroup*> own;
             for (const ResidualGroup& g : groups) {
                 if (g.order == order && g.condition.pattern == condition.pattern &&
@@ -114,10 +117,13 @@ std::string residual_figure(const StudyCheck& check, const std::vector<ResidualG
                 settings += "set title " + quoted(describe(condition)) + "\nset xlabel 'predicted share right'\n" +
                             "set xrange [" + format_fixed(low, 3) + ":1.01]\nset xtics 0.1\n";
             } else {
+                if (check.conditions.size() > static_cast<size_t>(columns)) {
+                    settings += "set title " + quoted(describe(condition)) + "\n";
+                }
                 settings += "set xlabel 'trial in the condition'\nset xrange [0:" + format_fixed(last_trial + 1, 0) +
                             "]\nset xtics " + format_number(tic_step(last_trial, 5)) + "\n";
             }
-            if (i == 0) settings += "set ylabel 'deviance residual'\n";
+            if (i % static_cast<size_t>(columns) == 0) settings += "set ylabel 'deviance residual'\n";
             panels.add(settings, plot_of(own, condition));
         }
     }
