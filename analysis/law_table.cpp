@@ -18,32 +18,12 @@ size_t columns_of(const std::string& text) {
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-/// Columns as wide as their widest cell, two spaces apart.
-std::string aligned(const std::vector<Row>& rows) {
-    std::vector<size_t> widths;
-    for (const Row& row : rows) {
-        widths.resize(std::max(widths.size(), row.size()));
-        for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(row[i]));
-    }
-    std::string text;
-    for (const Row& row : rows) {
-        std::string line = "  ";
-        for (size_t i = 0; i < row.size(); ++i) line += row[i] + std::string(widths[i] - columns_of(row[i]) + 2, ' ');
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
-}
-
 std::string in_brackets(const Interval& interval, int decimals = 2) {
     return "[" + format_fixed(interval.first, decimals) + ", " + format_fixed(interval.second, decimals) + "]";
 }
 
 std::string percent(double share) {
     return (share >= 0 ? "+" : "") + format_fixed(100 * share, 1) + " %";
-}
-
-std::string p_text(double p) {
-    return p < 0.0001 ? "< .0001" : format_fixed(p, 4);
 }
 
 /// "sim03 (+2.1 %)", the one whose absence moves the slope furthest.
@@ -70,7 +50,7 @@ std::string condition_rows(const Law& law) {
                         largest_of(c.without_observer, ""), largest_of(c.without_size, " px"),
                         std::to_string(c.observers), std::to_string(c.trials)});
     }
-    return aligned(rows) + "  each c: " + law.conditions.front().slope_method + "\n";
+    return aligned_rows(rows) + "  each c: " + law.conditions.front().slope_method + "\n";
 }
 
 std::string comparison_rows(const Law& law) {
@@ -80,7 +60,7 @@ std::string comparison_rows(const Law& law) {
                         format_fixed(c.ratio, 3), in_brackets(c.ratio_ci95), p_text(c.p), p_text(c.p_holm),
                         std::to_string(c.observers)});
     }
-    return aligned(rows);
+    return aligned_rows(rows);
 }
 
 std::string criterion_rows(const Law& law) {
@@ -89,10 +69,29 @@ std::string criterion_rows(const Law& law) {
         rows.push_back({format_number(c.threshold_probability), format_fixed(c.slope, 3), in_brackets(c.slope_ci95),
                         format_fixed(c.texels_across, 3), format_fixed(c.texels_in_all, 3)});
     }
-    return aligned(rows);
+    return aligned_rows(rows);
 }
 
 }  // namespace
+
+std::string aligned_rows(const std::vector<Row>& rows) {
+    std::vector<size_t> widths;
+    for (const Row& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(row[i]));
+    }
+    std::string text;
+    for (const Row& row : rows) {
+        std::string line = "  ";
+        for (size_t i = 0; i < row.size(); ++i) line += row[i] + std::string(widths[i] - columns_of(row[i]) + 2, ' ');
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+}
+
+std::string p_text(double p) {
+    return p < 0.0001 ? "< 0.0001" : format_fixed(p, 4);
+}
 
 std::string law_table(const Law& law) {
     std::string text;

@@ -172,6 +172,10 @@ Law law_named(const std::string& path_or_name) {
 }
 
 void write_law(const std::filesystem::path& path, const Law& law) {
+    write_law(path, law, ordered_json::object());
+}
+
+void write_law(const std::filesystem::path& path, const Law& law, const ordered_json& more) {
     ordered_json file{{"format", kFormat},
                       {"kernel", name(law.kernel)},
                       {"slope", law.slope},
@@ -187,6 +191,7 @@ void write_law(const std::filesystem::path& path, const Law& law) {
     if (!law.slope_method.empty()) file["slope_method"] = law.slope_method;
     if (!law.comparisons.empty()) file["comparisons"] = list_of(law.comparisons);
     if (!law.criteria.empty()) file["criteria"] = list_of(law.criteria);
+    for (const auto& [key, value] : more.items()) file[key] = value;
     require_finite(file, "law", path.string());
     write_json(path, file);
 }

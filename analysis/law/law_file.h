@@ -91,6 +91,8 @@ Law law_named(const std::string& path_or_name);
 /// Writes a law, whole or not at all. Throws FailureError, also for a law with a number that isn't finite: no such number
 /// reaches a file.
 void write_law(const std::filesystem::path& path, const Law& law);
+/// The same with an object's entries after the law's own: what else is known of the study, which readers of laws ignore.
+void write_law(const std::filesystem::path& path, const Law& law, const nlohmann::ordered_json& more);
 
 /// The law's slope for another kernel, by equal variance: c·σ(law.kernel)/σ(kernel).
 double slope_for_kernel(const Law& law, KernelShape kernel);

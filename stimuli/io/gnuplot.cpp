@@ -41,4 +41,15 @@ std::string draw_svg(const std::string& script, int width_px, int height_px) {
     return read_file(figure);
 }
 
+std::string gnuplot_version() {
+    const TemporaryFolder folder;
+    const fs::path answer = folder.path() / "version.txt";
+    if (std::system(("gnuplot --version >" + shell_quoted(answer.string()) + " 2>/dev/null").c_str()) != 0) {
+        throw FailureError("gnuplot", "could not be started", "install gnuplot-nox");
+    }
+    std::string version = read_file(answer);
+    while (version.ends_with('\n')) version.pop_back();
+    return version;
+}
+
 }  // namespace stairstep

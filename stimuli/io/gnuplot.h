@@ -9,4 +9,7 @@ namespace stairstep {
 /// Throws FailureError where gnuplot is missing or refuses the script.
 std::string draw_svg(const std::string& script, int width_px, int height_px);
 
+/// "gnuplot 5.4 patchlevel 4", what draw_svg runs. Throws FailureError where gnuplot is missing.
+std::string gnuplot_version();
+
 }  // namespace stairstep
