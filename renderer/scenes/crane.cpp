@@ -13,14 +13,15 @@ namespace {
 
 /// The mast stands on the origin; what slews turns about its axis.
 constexpr double kMastHeight = 24;
-constexpr double kMastHalf = 0.9;
-constexpr double kPanel = 1.5;
+constexpr double kMastHalf = 1.1;
+constexpr double kPanel = 2;
 constexpr double kJibReach = 24;
-constexpr double kCounterReach = 9;
+constexpr double kCounterReach = 10;
+constexpr double kJibHalf = 1.1;
 constexpr double kTrolleyReach = 15;
 constexpr double kRope = 11;
-constexpr double kChord = 0.16;
-constexpr double kBrace = 0.08;
+constexpr double kChord = 0.2;
+constexpr double kBrace = 0.1;
 
 enum Mover : size_t { kSlewing, kLoad };
 
@@ -43,9 +44,9 @@ void append_mast(Mesh& mesh) {
 /// The jib along +x: two chords below, one above, zigzags between them.
 void append_jib(Mesh& mesh) {
     const double low = kMastHeight + 1.2;
-    const double high = low + 1.5;
+    const double high = low + 2;
     const int panels = static_cast<int>(std::lround(kJibReach / kPanel));
-    const auto bottom = [&](int i, double side) { return glm::dvec3(i * kPanel, low, side * 0.7); };
+    const auto bottom = [&](int i, double side) { return glm::dvec3(i * kPanel, low, side * kJibHalf); };
     const auto top = [&](int i) { return glm::dvec3((i + 0.5) * kPanel, high, 0); };
     append_beam(mesh, bottom(0, -1), bottom(panels, -1), kChord);
     append_beam(mesh, bottom(0, 1), bottom(panels, 1), kChord);
@@ -59,7 +60,7 @@ void append_jib(Mesh& mesh) {
         }
     }
     // The trolley that the load hangs from.
-    append_box(mesh, {kTrolleyReach - 0.7, low - 0.35, -0.8}, {kTrolleyReach + 0.7, low - 0.12, 0.8});
+    append_box(mesh, {kTrolleyReach - 0.7, low - 0.35, -1.2}, {kTrolleyReach + 0.7, low - 0.12, 1.2});
 }
 
 /// The counter-jib along −x, a railed walkway of crossed beams.
@@ -93,7 +94,7 @@ void append_tip_and_cables(Mesh& mesh) {
         for (int side = 0; side < 4; ++side) append_beam(mesh, ring[side], ring[(side + 1) % 4], kBrace);
     }
     for (const double reach : {0.45 * kJibReach, 0.9 * kJibReach}) {
-        append_cylinder(mesh, tip, {reach, low + 1.5, 0}, 0.035, 0.035, 6);
+        append_cylinder(mesh, tip, {reach, low + 2, 0}, 0.035, 0.035, 6);
     }
     for (const double side : {-0.8, 0.8}) {
         append_cylinder(mesh, tip, {-kCounterReach + 0.4, low, side}, 0.035, 0.035, 6);
@@ -191,8 +192,8 @@ AnimatedScene make_crane() {
     add_floor(scene, 0, 400, {0.50f, 0.45f, 0.38f});
 
     Walk walk;
-    walk.target = {5.5, 11, 4};
-    walk.eye = {20, 25, 58};
+    walk.target = {5.5, 12.3, 3};
+    walk.eye = {21, 28, 62};
     walk.turn_deg = 35;
     walk.approach = 0.75;
     walk.vertical_fov_deg = 35;
