@@ -38,9 +38,9 @@ std::vector<glm::dmat4> movers_at(double t) {
 
 Light light_at(double t) {
     const double around = 2 * std::numbers::pi * t;
-    // Starts in the middle and swings out on a loop through it.
+    // Starts in the middle and swings out on a loop. It never points straight down, where its square would spin.
     const glm::dvec3 position(1.2 * std::sin(around), kLampHeight, 1.2 * (1 - std::cos(around)) / 2);
-    return spot_light(position, {0.3 * std::sin(around), 0, 0}, 0.16, 66);
+    return spot_light(position, {0.3 * std::sin(around), 0, -0.9}, 0.16, 66);
 }
 
 AnimatedScene make_cornell() {
