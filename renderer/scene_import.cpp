@@ -4,13 +4,17 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <map>
 #include <new>
 
-#include "renderer/memory_limit.h"
+#include "renderer/child_process.h"
+#include "renderer/imported_views.h"
+#include "renderer/scene_archive.h"
 #include "stimuli/error.h"
+#include "stimuli/stimulus.h"
 
 namespace stairstep {
 namespace {
@@ -23,6 +27,12 @@ constexpr float kLargestCoordinate = 1e12f;
 /// A model may place one mesh many times; indices are 32 bits.
 constexpr size_t kMostVertices = size_t{1} << 27;
 
+/// Why a model is refused, and what would do.
+struct Rejection {
+    std::string problem;
+    std::string remedy;
+};
+
 /// Walks Assimp's tree and collects the scene.
 class Collector {
   public:
@@ -33,13 +43,16 @@ class Collector {
         if (result_.scene.materials.empty()) result_.scene.materials.emplace_back();
         if (source_.mRootNode) add_node(*source_.mRootNode, aiMatrix4x4(), 0);
         if (result_.scene.meshes.empty()) reject("has no triangles", "use a model with a surface");
-        if (caster_bounds(result_.scene).diagonal() == 0) reject("has no extent", "use a model with a surface");
+        const Bounds bounds = caster_bounds(result_.scene);
+        if (bounds.diagonal() == 0) reject("has no extent", "use a model with a surface");
+        result_.cameras = imported_cameras(source_, bounds, result_.warnings);
+        result_.lights = imported_lights(source_, bounds, result_.warnings);
         return std::move(result_);
     }
 
   private:
-    [[noreturn]] void reject(const std::string& problem, const std::string& remedy) const {
-        throw InputError(path_.string(), problem, remedy);
+    [[noreturn]] static void reject(const std::string& problem, const std::string& remedy) {
+        throw Rejection{problem, remedy};
     }
 
     void add_material(const aiMaterial& source) {
@@ -64,25 +77,45 @@ class Collector {
         const auto known = textures_.find(file);
         if (known != textures_.end()) return known->second;
         std::optional<size_t> index;
-        if (source_.GetEmbeddedTexture(file.c_str())) {
-            result_.warnings.push_back("texture " + file + " lies inside the model, which isn't supported");
-        } else {
-            try {
-                // Models made on Windows name their files with backslashes.
-                std::string portable = file;
-                for (char& c : portable) c = c == '\\' ? '/' : c;
-                const fs::path image_path = path_.parent_path() / portable;
-                // An empty name stands for the folder, which image readers may read without end.
-                if (!fs::is_regular_file(image_path)) throw InputError(image_path.string(), "isn't a file", "add it");
-                Image image = read_image(image_path);
-                index = result_.scene.textures.size();
-                result_.scene.textures.push_back(std::move(image));
-            } catch (const InputError& e) {
-                result_.warnings.push_back(std::string("texture ") + e.what());
-            }
+        try {
+            const aiTexture* embedded = source_.GetEmbeddedTexture(file.c_str());
+            Image image = embedded ? embedded_image(*embedded, file) : image_beside(file);
+            index = result_.scene.textures.size();
+            result_.scene.textures.push_back(std::move(image));
+        } catch (const InputError& e) {
+            result_.warnings.push_back(std::string("texture ") + e.what());
         }
         textures_[file] = index;
         return index;
+    }
+
+    Image image_beside(const std::string& file) const {
+        // Models made on Windows name their files with backslashes.
+        std::string portable = file;
+        for (char& c : portable) c = c == '\\' ? '/' : c;
+        const fs::path image_path = path_.parent_path() / portable;
+        // An empty name stands for the folder, which image readers may read without end.
+        if (!fs::is_regular_file(image_path)) throw InputError(image_path.string(), "isn't a file", "add it");
+        return read_image(image_path);
+    }
+
+    /// An image inside the model: a whole file where the height is 0, the width being its bytes; else pixels.
+    static Image embedded_image(const aiTexture& source, const std::string& name) {
+        if (!source.pcData || source.mWidth == 0) throw InputError(name, "is empty", "export the model again");
+        if (source.mHeight == 0) {
+            return decode_image({reinterpret_cast<const uint8_t*>(source.pcData), source.mWidth}, name);
+        }
+        if (source.mWidth > kLargestSide || source.mHeight > kLargestSide) {
+            throw InputError(name, "is larger than 16384 px", "use a smaller one");
+        }
+        Image image(static_cast<int>(source.mWidth), static_cast<int>(source.mHeight), 3);
+        for (size_t i = 0; i < static_cast<size_t>(source.mWidth) * source.mHeight; ++i) {
+            const aiTexel& texel = source.pcData[i];
+            image.pixels[3 * i] = texel.r;
+            image.pixels[3 * i + 1] = texel.g;
+            image.pixels[3 * i + 2] = texel.b;
+        }
+        return image;
     }
 
     void add_node(const aiNode& node, const aiMatrix4x4& world_from_parent, int depth) {
@@ -150,11 +183,8 @@ class Collector {
     size_t vertex_count_ = 0;
 };
 
-}  // namespace
-
-ImportedScene import_scene(const fs::path& path) {
-    if (!fs::is_regular_file(path)) throw InputError(path.string(), "isn't a file", "name a model, as truck.gltf");
-    const MemoryLimit limit(kMostMemory);
+/// Reads the model here and now. Throws Rejection.
+ImportedScene import_unguarded(const fs::path& path) {
     try {
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -162,18 +192,60 @@ ImportedScene import_scene(const fs::path& path) {
             path.string(), aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType |
                                aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices | aiProcess_FlipUVs);
         if (!source) {
-            throw InputError(path.string(), std::string("can't be read as a model (") + importer.GetErrorString() + ")",
-                             "check the file, or convert it to glTF");
+            throw Rejection{std::string("can't be read as a model (") + importer.GetErrorString() + ")",
+                            "check the file, or convert it to glTF"};
         }
         return Collector(*source, path).collect();
-    } catch (const Error&) {
-        throw;
     } catch (const std::bad_alloc&) {
-        throw InputError(path.string(), "wants over 4 GiB while it is read", "check the file, or use a smaller model");
+        throw Rejection{"wants over 4 GiB while it is read", "check the file, or use a smaller model"};
     } catch (const std::exception& e) {
         // Assimp's importers are meant to return errors, but some throw.
-        throw InputError(path.string(), std::string("can't be read as a model (") + e.what() + ")",
-                         "check the file, or convert it to glTF");
+        throw Rejection{std::string("can't be read as a model (") + e.what() + ")",
+                        "check the file, or convert it to glTF"};
+    }
+}
+
+/// What the child hands back starts with one of these; a rejection's two parts are kept apart by a zero.
+constexpr char kScene = 's';
+constexpr char kRejection = 'r';
+
+std::string import_to_bytes(const fs::path& path) {
+    try {
+        return kScene + archive_of(import_unguarded(path));
+    } catch (const Rejection& rejection) {
+        return kRejection + rejection.problem + '\0' + rejection.remedy;
+    }
+}
+
+/// Processor time for a file of this size: what is sound takes a hundredth of it.
+int time_limit_s(uintmax_t bytes) {
+    return 5 + static_cast<int>(std::min<uintmax_t>(bytes >> 20, 60) * 5);
+}
+
+}  // namespace
+
+ImportedScene import_scene(const fs::path& path) {
+    if (!fs::is_regular_file(path)) throw InputError(path.string(), "isn't a file", "name a model, as truck.gltf");
+    const int cpu_s = time_limit_s(fs::file_size(path));
+    const ChildOutcome outcome = run_in_child([&] { return import_to_bytes(path); }, {kMostMemory, cpu_s});
+    const std::string remedy = "check the file, or convert it to glTF";
+    if (outcome.end == ChildOutcome::End::out_of_time) {
+        throw InputError(path.string(), "takes over " + std::to_string(cpu_s) + " s to read", remedy);
+    }
+    if (outcome.end == ChildOutcome::End::crashed || outcome.output.empty()) {
+        throw InputError(path.string(), "is damaged so that its importer crashes", remedy);
+    }
+    const std::string_view rest = std::string_view(outcome.output).substr(1);
+    if (outcome.output[0] == kRejection) {
+        const size_t end = std::min(rest.find('\0'), rest.size());
+        throw InputError(path.string(), std::string(rest.substr(0, end)),
+                         std::string(rest.substr(std::min(end + 1, rest.size()))));
+    }
+    try {
+        return scene_from_archive(rest);
+    } catch (const std::exception& e) {
+        throw InputError(path.string(),
+                         std::string("is damaged so that its importer returns nonsense (") + e.what() + ")", remedy);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,10 @@ void write_png(const std::filesystem::path& path, const Image& image, const Imag
 /// dropped. Throws InputError for a missing or damaged file, something that is no file, or a side above
 /// `kLargestSide`.
 Image read_image(const std::filesystem::path& path);
+
+/// The same of a PNG, JPEG, BMP, GIF, TIFF, WebP or DDS file that lies in memory; `subject` names it in errors. What the
+/// bytes start with says which it is.
+Image decode_image(std::span<const uint8_t> bytes, const std::string& subject);
 
 /// Draws a line of text in an image, its baseline's left end at (column, row). `grey` is the text's level.
 /// Needs a DejaVu font; returns false where none is installed.
