@@ -71,7 +71,8 @@ class AreaLight {
           casters_(casters),
           // All rays to a point are one.
           side_(light.half_side > 0 ? static_cast<int>(std::lround(std::sqrt(samples))) : 1),
-          least_cosine_(std::cos(radians(light.cone_deg))) {}
+          least_cosine_(std::cos(radians(light.cone_deg))),
+          length_(light.kind == Light::Kind::spot ? 1 : std::numeric_limits<double>::infinity()) {}
 
     float visibility(const SurfacePoint& point, Random random) const {
         if (!reaches(point)) return 0;
@@ -79,6 +80,11 @@ class AreaLight {
         // The ray starts at `offset`: triangles up to half of it can't be met.
         if (!casters_.may_hide_light(point.position, point.normal, offset)) return 1;
         const glm::dvec3 origin = point.position + offset * point.normal;
+        RayPacket corners;
+        for (const double u : {-1, 1}) {
+            for (const double v : {-1, 1}) corners.add(way_to(u, v, origin));
+        }
+        if (tracer_.one_triangle_stops_all(origin, corners, length_)) return 0;
         int seen = 0;
         for (int row = 0; row < side_; row += kBlock) {
             for (int column = 0; column < side_; column += kBlock) seen += seen_in_block(origin, column, row, random);
@@ -101,17 +107,19 @@ class AreaLight {
             for (int column = first_column; column < std::min(first_column + kBlock, side_); ++column) {
                 // 32 bits each, of one draw.
                 const uint64_t bits = random.bits();
-                const double u =
-                    ((column + static_cast<double>(bits >> 32) * 0x1p-32) / side_ * 2 - 1) * light_.half_side;
-                const double v =
-                    ((row + static_cast<double>(bits & 0xffffffff) * 0x1p-32) / side_ * 2 - 1) * light_.half_side;
-                const glm::dvec3 across = u * light_.basis.right + v * light_.basis.up;
-                packet.add(light_.kind == Light::Kind::spot ? light_.position + across - origin
-                                                            : light_.basis.back + across / light_.distance);
+                const double u = (column + static_cast<double>(bits >> 32) * 0x1p-32) / side_ * 2 - 1;
+                const double v = (row + static_cast<double>(bits & 0xffffffff) * 0x1p-32) / side_ * 2 - 1;
+                packet.add(way_to(u, v, origin));
             }
         }
-        const double length = light_.kind == Light::Kind::spot ? 1 : std::numeric_limits<double>::infinity();
-        return tracer_.unoccluded(origin, packet, length);
+        return tracer_.unoccluded(origin, packet, length_);
+    }
+
+    /// The way to a point of the square, u and v in [−1, 1].
+    glm::dvec3 way_to(double u, double v, const glm::dvec3& origin) const {
+        const glm::dvec3 across = u * light_.half_side * light_.basis.right + v * light_.half_side * light_.basis.up;
+        return light_.kind == Light::Kind::spot ? light_.position + across - origin
+                                                : light_.basis.back + across / light_.distance;
     }
 
     Light light_;
@@ -119,6 +127,8 @@ class AreaLight {
     const CasterTree& casters_;
     int side_;
     double least_cosine_;
+    /// Of a ray to the light, in ways.
+    double length_;
 };
 
 [[maybe_unused]] bool is_square(int number) {

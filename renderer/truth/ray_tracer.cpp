@@ -61,6 +61,27 @@ TracedScene make_scene(RTCDevice device, const std::vector<WorldMesh>& meshes, b
     return scene;
 }
 
+std::optional<SurfaceHit> nearest_in(RTCScene scene, const glm::vec3& origin, const glm::vec3& direction, double near,
+                                     double far) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit ray{};
+    ray.ray.org_x = origin.x;
+    ray.ray.org_y = origin.y;
+    ray.ray.org_z = origin.z;
+    ray.ray.dir_x = direction.x;
+    ray.ray.dir_y = direction.y;
+    ray.ray.dir_z = direction.z;
+    ray.ray.tnear = static_cast<float>(near);
+    ray.ray.tfar = static_cast<float>(far);
+    ray.ray.mask = ~0u;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return SurfaceHit{ray.hit.geomID, ray.hit.primID, ray.ray.tfar};
+}
+
 }  // namespace
 
 void RayPacket::add(const glm::dvec3& direction) {
@@ -90,23 +111,22 @@ RayTracer::~RayTracer() = default;
 
 std::optional<SurfaceHit> RayTracer::nearest(const glm::dvec3& origin, const glm::dvec3& direction, double near,
                                              double far) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit ray{};
-    ray.ray.org_x = static_cast<float>(origin.x);
-    ray.ray.org_y = static_cast<float>(origin.y);
-    ray.ray.org_z = static_cast<float>(origin.z);
-    ray.ray.dir_x = static_cast<float>(direction.x);
-    ray.ray.dir_y = static_cast<float>(direction.y);
-    ray.ray.dir_z = static_cast<float>(direction.z);
-    ray.ray.tnear = static_cast<float>(near);
-    ray.ray.tfar = static_cast<float>(far);
-    ray.ray.mask = ~0u;
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scenes_->all.get(), &context, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return SurfaceHit{ray.hit.geomID, ray.hit.primID, ray.ray.tfar};
+    return nearest_in(scenes_->all.get(), glm::vec3(origin), glm::vec3(direction), near, far);
+}
+
+bool RayTracer::one_triangle_stops_all(const glm::dvec3& origin, const RayPacket& packet, double length) const {
+    assert(packet.count > 0);
+    const auto stop_of = [&](int i) {
+        return nearest_in(scenes_->casters.get(), glm::vec3(origin), {packet.x[i], packet.y[i], packet.z[i]}, 0,
+                          length);
+    };
+    const auto first = stop_of(0);
+    if (!first) return false;
+    for (int i = 1; i < packet.count; ++i) {
+        const auto other = stop_of(i);
+        if (!other || other->mesh != first->mesh || other->triangle != first->triangle) return false;
+    }
+    return true;
 }
 
 int RayTracer::unoccluded(const glm::dvec3& origin, const RayPacket& packet, double length) const {

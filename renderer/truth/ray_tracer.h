@@ -50,6 +50,10 @@ class RayTracer {
     /// infinite.
     int unoccluded(const glm::dvec3& origin, const RayPacket& packet, double length) const;
 
+    /// Whether all of the packet's rays, at least one, meet the same triangle of a mesh that casts before any other. It then
+    /// stops every ray between them, too, as a triangle is convex. False is no promise.
+    bool one_triangle_stops_all(const glm::dvec3& origin, const RayPacket& packet, double length) const;
+
   private:
     struct Scenes;
     std::unique_ptr<Scenes> scenes_;

@@ -49,6 +49,24 @@ TEST(RayTracer, CountsRaysThatNoCasterStops) {
     }
 }
 
+TEST(RayTracer, KnowsWhenOneTriangleStopsAll) {
+    const WorldMesh square{{{-1, 2, -1}, {-1, 2, 1}, {1, 2, 1}, {1, 2, -1}}, {0, 1, 2, 0, 2, 3}, true};
+    const auto stops = [](const RayTracer& tracer, double x, double z, double length) {
+        RayPacket packet;
+        for (const double u : {-0.1, 0.1}) {
+            for (const double v : {-0.1, 0.1}) packet.add({u, 1, v});
+        }
+        return tracer.one_triangle_stops_all({x, 0, z}, packet, length);
+    };
+    const RayTracer tracer({half_square(1, false), square});
+    EXPECT_TRUE(stops(tracer, -0.6, 0.3, INFINITY));
+    EXPECT_TRUE(stops(tracer, 0.3, -0.6, INFINITY)) << "what doesn't cast is not in the way";
+    EXPECT_FALSE(stops(tracer, -0.6, 0.3, 1.9)) << "the rays end below";
+    EXPECT_FALSE(stops(tracer, 0.1, 0.1, INFINITY)) << "two triangles";
+    EXPECT_FALSE(stops(tracer, -0.9, 0.3, INFINITY)) << "some pass by";
+    EXPECT_FALSE(stops(tracer, 3, 3, INFINITY));
+}
+
 TEST(RayTracer, RaysDontSlipThroughSharedEdges) {
     // A plane of 32 × 32 squares, their corners at odd floats; rays go through the corners and edges themselves.
     constexpr int kSide = 32;
