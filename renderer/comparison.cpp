@@ -72,6 +72,22 @@ VisibilityError compare_visibility(const std::vector<float>& rendered, const std
     return error;
 }
 
+void Wobble::add(const std::vector<float>& rendered, const std::vector<float>& truth) {
+    assert(rendered.size() == truth.size() && !truth.empty());
+    assert(frames_ == 0 || error_.size() == truth.size());
+    error_.resize(truth.size());
+    for (size_t i = 0; i < truth.size(); ++i) {
+        const double error = static_cast<double>(rendered[i]) - truth[i];
+        if (frames_ > 0) sum_ += std::abs(error - error_[i]);
+        error_[i] = error;
+    }
+    ++frames_;
+}
+
+double Wobble::mean() const {
+    return frames_ < 2 ? 0 : sum_ / (static_cast<double>(frames_ - 1) * static_cast<double>(error_.size()));
+}
+
 Image visibility_picture(const std::vector<float>& visibility, int width, int height) {
     Image picture(width, height, 1);
     std::transform(visibility.begin(), visibility.end(), picture.pixels.begin(),

@@ -1,4 +1,4 @@
-// How far two pictures, or a picture and the truth, lie apart.
+// How far two pictures, a picture and the truth, or two sequences of frames lie apart.
 #pragma once
 
 #include <vector>
@@ -39,6 +39,28 @@ struct VisibilityError {
 
 /// Both of the same length, at least 1.
 VisibilityError compare_visibility(const std::vector<float>& rendered, const std::vector<float>& truth);
+
+/// How much a sequence's shadows move where the true ones don't, and how much they fail to where those do:
+///
+///   wobble = mean over pixels and pairs of consecutive frames of |ΔI − ΔI_true|,   ΔI = I(frame t + 1) − I(frame t)
+///
+/// An error that stays in its place costs nothing; one that crawls or flickers does. The change is each pixel's own: what a
+/// moving camera does to a picture, it does to the true one as well.
+class Wobble {
+  public:
+    /// The next frame of both sequences, of the same length as the frames before and at least 1.
+    void add(const std::vector<float>& rendered, const std::vector<float>& truth);
+
+    /// In units of the frames' values; 0 as long as there are less than two frames.
+    double mean() const;
+    size_t frames() const { return frames_; }
+
+  private:
+    /// Rendered less true, of the last frame: ΔI − ΔI_true is its change.
+    std::vector<double> error_;
+    double sum_ = 0;
+    size_t frames_ = 0;
+};
 
 /// Visibility as a grey picture, 255 lit.
 Image visibility_picture(const std::vector<float>& visibility, int width, int height);

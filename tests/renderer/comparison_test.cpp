@@ -37,5 +37,34 @@ TEST(Comparison, NoPenumbraIsNoError) {
     EXPECT_EQ(compare_visibility({0, 1}, {0, 1}).penumbra_rmse, 0);
 }
 
+TEST(Comparison, AnErrorThatStaysDoesNotWobble) {
+    Wobble wobble;
+    EXPECT_EQ(wobble.mean(), 0);
+    // Values that floats hold exactly, so that their differences are exact too.
+    for (const float moved : {0.0f, 0.25f, 0.125f}) wobble.add({moved + 0.5f, moved}, {moved, moved + 0.25f});
+    EXPECT_EQ(wobble.frames(), 3u);
+    EXPECT_EQ(wobble.mean(), 0);
+}
+
+TEST(Comparison, WobbleCountsEachChangeThatIsNotTrue) {
+    Wobble wobble;
+    wobble.add({0, 0}, {0, 0});
+    EXPECT_EQ(wobble.mean(), 0) << "of one frame there is no change";
+    wobble.add({0.5f, 0}, {0, 0});
+    EXPECT_DOUBLE_EQ(wobble.mean(), 0.25) << "half of the pixels by 0.5";
+    // Back: a change again. The other pixel stays while the true one goes to 1.
+    wobble.add({0, 0}, {0, 1});
+    EXPECT_DOUBLE_EQ(wobble.mean(), (0.5 + 0.5 + 1) / 4);
+}
+
+TEST(Comparison, ALateStepWobblesTwice) {
+    // An edge that crosses a pixel a frame late: |−1| when the true one goes, |+1| when it follows.
+    Wobble wobble;
+    wobble.add({1}, {1});
+    wobble.add({1}, {0});
+    wobble.add({0}, {0});
+    EXPECT_DOUBLE_EQ(wobble.mean(), 1);
+}
+
 }  // namespace
 }  // namespace stairstep

@@ -1,0 +1,20 @@
+#include "renderer/truth/world_mesh.h"
+
+namespace stairstep {
+
+std::vector<WorldMesh> world_meshes(const Scene& scene, const SceneState& state) {
+    std::vector<WorldMesh> meshes;
+    for (const Mesh& mesh : scene.meshes) {
+        WorldMesh world{{}, mesh.indices, mesh.casts};
+        world.positions.reserve(mesh.vertices.size());
+        for (const Vertex& vertex : mesh.vertices) {
+            world.positions.push_back(
+                mesh.mover ? glm::vec3(state.movers[*mesh.mover] * glm::dvec4(glm::dvec3(vertex.position), 1))
+                           : vertex.position);
+        }
+        meshes.push_back(std::move(world));
+    }
+    return meshes;
+}
+
+}  // namespace stairstep
