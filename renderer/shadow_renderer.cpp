@@ -1,6 +1,8 @@
 #include "renderer/shadow_renderer.h"
 
 #include <algorithm>
+#include <cassert>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -153,7 +155,8 @@ ShadowRenderer::ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings
     if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
 }
 
-ShadowMapShape ShadowRenderer::choose_shape(const LightFrustum& frustum, const Camera& camera, int height_px) {
+ShadowMapShape ShadowRenderer::choose_shape(const LightFrustum& frustum, double filter_radius, const Camera& camera,
+                                            int height_px) {
     if (settings_.fixed_size) return map_of_size(frustum, *settings_.fixed_size);
     const int largest = settings_.largest_size;
     if (meter_) {
@@ -170,24 +173,23 @@ ShadowMapShape ShadowRenderer::choose_shape(const LightFrustum& frustum, const C
         pixel = pixel_footprint(camera, std::max(frustum.view_distance, camera.near), height_px);
         if (frustum.kind == Light::Kind::spot) pixel /= frustum.farthest;
     }
-    return map_by_law(frustum, {settings_.technique.law_slope, map_.filter_radius, 0, pixel, largest});
+    return map_by_law(frustum, {settings_.technique.law_slope, filter_radius, 0, pixel, largest});
 }
 
-void ShadowRenderer::fit(const GpuScene& scene, const SceneState& state, double aspect, int height_px) {
+ShadowMapShape ShadowRenderer::fit(const GpuScene& scene, const SceneState& state, double aspect, int height_px) {
+    const double filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
+    const LightFrustum frustum =
+        fit_light_frustum(scene.extents, state, aspect, settings_.fit,
+                          [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); });
+    return choose_shape(frustum, filter_radius, state.camera, height_px);
+}
+
+FrameTime ShadowRenderer::draw_with(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
+                                    const FrameTarget& target, gl::PassTimer& timer) {
+    assert(std::max(shape.width, shape.height) <= map_.capacity);
+    map_.shape = shape;
     map_.filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
-    const LightFrustum frustum = fit_light_frustum(
-        scene.extents, state, aspect, settings_.fit,
-        [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, map_.filter_radius); });
-    map_.shape = choose_shape(frustum, state.camera, height_px);
-}
-
-FrameTime ShadowRenderer::draw_passes(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
-                                      gl::PassTimer& timer) {
     FrameTime time;
-    const auto started = std::chrono::steady_clock::now();
-    fit(scene, state, static_cast<double>(target.width) / target.height, target.height);
-    time.fit_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
-
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl::BindVertexArray(scene.vertex_array.id());
     if (technique_->reads_map()) {
@@ -213,13 +215,23 @@ FrameTime ShadowRenderer::draw_passes(const GpuScene& scene, const SceneState& s
     return time;
 }
 
+FrameTime ShadowRenderer::draw_fitted(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
+                                      gl::PassTimer& timer) {
+    const auto started = std::chrono::steady_clock::now();
+    const ShadowMapShape shape = fit(scene, state, static_cast<double>(target.width) / target.height, target.height);
+    const std::chrono::duration<double, std::milli> fitting = std::chrono::steady_clock::now() - started;
+    FrameTime time = draw_with(shape, scene, state, target, timer);
+    time.fit_ms = fitting.count();
+    return time;
+}
+
 FrameTime ShadowRenderer::draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
                                gl::PassTimer& timer) {
     const bool settles = meter_ && target.samples == 1 && choice_.texel == 0;
-    FrameTime time = draw_passes(scene, state, target, timer);
+    FrameTime time = draw_fitted(scene, state, target, timer);
     for (int i = 1; settles && i < kMostSettlingFrames; ++i) {
         const glm::dvec2 texel = map_.shape.texel();
-        time = draw_passes(scene, state, target, timer);
+        time = draw_fitted(scene, state, target, timer);
         if (map_.shape.texel() == texel) break;
     }
     return time;

@@ -55,14 +55,18 @@ class ShadowRenderer {
     /// reports an error.
     FrameTime draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target, gl::PassTimer& timer);
 
+    /// Draws a frame with a map of this shape, which the settings' own sizes must have room for.
+    FrameTime draw_with(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
+                        const FrameTarget& target, gl::PassTimer& timer);
+
     /// The map as last drawn.
     const ShadowMap& map() const { return map_; }
     const ShadowTechnique& technique() const { return *technique_; }
 
   private:
-    ShadowMapShape choose_shape(const LightFrustum& frustum, const Camera& camera, int height_px);
-    void fit(const GpuScene& scene, const SceneState& state, double aspect, int height_px);
-    FrameTime draw_passes(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
+    ShadowMapShape choose_shape(const LightFrustum& frustum, double filter_radius, const Camera& camera, int height_px);
+    ShadowMapShape fit(const GpuScene& scene, const SceneState& state, double aspect, int height_px);
+    FrameTime draw_fitted(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
                           gl::PassTimer& timer);
 
     ShadowSettings settings_;

@@ -25,6 +25,12 @@ double width_texels(const ShadowMap& map) {
     return 2 * std::max(radius.x, radius.y);
 }
 
+void require_narrow(const ShadowMap& map) {
+    if (width_texels(map) <= kWidestExact) return;
+    throw InputError("--filter exact", "the filter is " + format_fixed(width_texels(map), 0) + " texels wide",
+                     "use another filter, a smaller map or a smaller --radius");
+}
+
 class PcfExact final : public ShadowTechnique {
   public:
     std::vector<std::string_view> shader() const override {
@@ -34,10 +40,7 @@ class PcfExact final : public ShadowTechnique {
     double reach(const LightFrustum&, double filter_radius) const override { return filter_radius; }
 
     void bind(const gl::Program& program, const ShadowMap& map) const override {
-        if (width_texels(map) > kWidestExact) {
-            throw InputError("--filter exact", "the filter is " + format_fixed(width_texels(map), 0) + " texels wide",
-                             "use another filter, a smaller map or a smaller --radius");
-        }
+        require_narrow(map);
         const glm::dvec2 radius = glm::max(radius_texels(map), glm::dvec2(kNarrowestExact));
         gl::set_uniform(program, "filter_radius", glm::vec2(radius));
         gl::set_uniform(program, "gathers_per_side", gathers_per_side(map));
@@ -80,7 +83,10 @@ std::unique_ptr<ShadowTechnique> make_pcf(const TechniqueSettings& settings, con
     if (filter == FilterMode::automatic) {
         filter = width_texels(first) <= kWidestAutomaticExact ? FilterMode::exact : FilterMode::jittered;
     }
-    if (filter == FilterMode::exact) return std::make_unique<PcfExact>();
+    if (filter == FilterMode::exact) {
+        require_narrow(first);
+        return std::make_unique<PcfExact>();
+    }
     return std::make_unique<PcfSampled>(filter, settings.filter_taps);
 }
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "renderer/frame.h"
 #include "renderer/scene.h"
+#include "renderer/shadow_renderer.h"
 #include "renderer/techniques/techniques.h"
 #include "renderer/view.h"
 
@@ -89,15 +89,54 @@ inline glm::dvec3 point_below(const Camera& camera, int column, int row, int wid
     return {camera.eye.x + (column + 0.5 - width / 2.0) * pixel, y, camera.eye.z + (row + 0.5 - height / 2.0) * pixel};
 }
 
-inline std::vector<float> draw_visibility(const Scene& scene, const Camera& camera, const std::string& technique,
-                                          const TechniqueSettings& settings, const ShadowMapShape& shape, int width,
+/// A constant filter.
+struct Filter {
+    /// World units.
+    double radius = 0.1;
+    FilterMode mode = FilterMode::automatic;
+    int taps = 25;
+};
+
+/// A frustum around all casters of a scene that stands still, for a camera that sees everything.
+inline LightFrustum fitted(const Scene& scene, const Light& light, Fit fit = Fit::axis_aligned, double reach = 1e3) {
+    SceneState state;
+    state.camera = camera_at({0, 0, 1000}, {0, 0}, 0.1, 1e5);
+    state.light = light;
+    return fit_light_frustum(extents_of(scene), state, 1, fit, [&](const LightFrustum&) { return reach; });
+}
+
+inline LightFrustum fitted(const Scene& scene, const Direction& direction) {
+    return fitted(scene, directional_light(direction, 0));
+}
+
+inline std::vector<float> draw_visibility(const Scene& scene, const SceneState& state, const std::string& technique,
+                                          const ShadowSettings& settings, const ShadowMapShape& shape, int width,
                                           int height) {
     const GpuScene gpu = upload(scene);
     const FrameTarget target = make_frame_target(Show::visibility, width, height, 1);
-    const ShadowRenderer renderer = make_shadow_renderer(technique_named(technique), settings, shape);
+    ShadowSettings roomy = settings;
+    roomy.fixed_size = std::max(shape.width, shape.height);
+    ShadowRenderer renderer(technique_named(technique), roomy, gpu, state, static_cast<double>(width) / height);
     gl::PassTimer timer;
-    draw_frame(gpu, {camera, glm::dvec3(0), 1}, renderer, target, timer);
+    renderer.draw_with(shape, gpu, state, target, timer);
     return read_visibility(target);
+}
+
+inline ShadowSettings settings_of(const Filter& filter) {
+    ShadowSettings settings;
+    settings.technique.filter = filter.mode;
+    settings.technique.filter_taps = filter.taps;
+    settings.radius = filter.radius;
+    return settings;
+}
+
+/// Under the directional light that the shape was made for.
+inline std::vector<float> draw_visibility(const Scene& scene, const Camera& camera, const std::string& technique,
+                                          const Filter& filter, const ShadowMapShape& shape, int width, int height) {
+    SceneState state;
+    state.camera = camera;
+    state.light.basis = shape.frustum.basis;
+    return draw_visibility(scene, state, technique, settings_of(filter), shape, width, height);
 }
 
 }  // namespace stairstep::made

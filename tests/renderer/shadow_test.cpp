@@ -29,7 +29,13 @@ const Camera kCamera = made::camera_down({0, 1.5, 0});
 /// A map over [−extent/2, extent/2] along each axis, made by hand so that its texel grid is known.
 ShadowMapShape shape_over(double texel, int width, int height) {
     const glm::dvec2 half = glm::dvec2(width, height) * texel / 2.0;
-    return {{basis_towards(kStraightDown), -half, half, -2.1, -1.9}, width, height, ShadowMapShape::Limit::fixed};
+    LightFrustum frustum;
+    frustum.basis = basis_towards(kStraightDown);
+    frustum.low = -half;
+    frustum.high = half;
+    frustum.nearest = -2.1;
+    frustum.farthest = -1.9;
+    return {frustum, width, height, ShadowMapShape::Limit::fixed};
 }
 
 /// Visibility of the box by adding up, texel by texel, what casts no shadow: `covers` says whether the caster
@@ -111,7 +117,7 @@ TEST_F(Shadow, ExactPcfIsTheBoxOverTheTexelsOfAnyCaster) {
             shape.height = height;
             const double radius = 0.14;
             const std::vector<float> drawn = made::draw_visibility(
-                scene, kCamera, "pcf", {radius, FilterMode::automatic, 0}, shape, kWidth, kHeight);
+                scene, kCamera, "pcf", {radius, FilterMode::exact, 0}, shape, kWidth, kHeight);
             expect_everywhere(drawn, kLevel, [&](const glm::dvec2& p) {
                 return box_over_texels(shape, radius, p, shape_case.covers);
             });
@@ -127,7 +133,7 @@ TEST_F(Shadow, SampledPcfIsWithoutBias) {
         return made::draw_visibility(scene, kCamera, "pcf", {radius, mode, 16}, shape, kWidth, kHeight);
     };
     const std::vector<float> exact = draw(FilterMode::exact);
-    const std::vector<float> sampled = draw(FilterMode::sampled);
+    const std::vector<float> sampled = draw(FilterMode::jittered);
     double sum = 0;
     double squares = 0;
     int penumbra = 0;
@@ -185,7 +191,7 @@ TEST_F(Shadow, NoneIsLit) {
 TEST_F(Shadow, ASphereHasNoAcne) {
     const Scene scene = made::scene_of({made::sphere(1, 48)});
     const Direction light{40, 35};
-    const LightFrustum frustum = fit_light_frustum(scene, light, 0.1);
+    const LightFrustum frustum = made::fitted(scene, light);
     // From where the light comes from, every facet that can be seen faces it, and a convex body never shades
     // itself.
     const Camera camera = made::camera_at(4.0 * basis_towards(light).back, light);
@@ -203,7 +209,7 @@ TEST_F(Shadow, ASphereHasNoAcne) {
 TEST_F(Shadow, ATiltedPlaneHasNoAcne) {
     const Scene scene = made::scene_of({made::polygon({{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}}, true)});
     for (const double elevation : {5.0, 20.0, 60.0, 90.0}) {
-        const LightFrustum frustum = fit_light_frustum(scene, {33, elevation}, 0.1);
+        const LightFrustum frustum = made::fitted(scene, {33, elevation});
         for (const int side : {64, 1024}) {
             const std::vector<float> drawn =
                 made::draw_visibility(scene, made::camera_down({0, 3, 0}), "pcf", {0.1, FilterMode::automatic, 25},
@@ -219,7 +225,7 @@ TEST_F(Shadow, ReachesUpToTheFootOfABox) {
     meshes.push_back(made::ground(0, 9));
     const Scene scene = made::scene_of(meshes);
     // From +x at 45°: the shadow covers the ground from x = −0.5 to −1.5.
-    const ShadowMapShape shape = map_of_size(fit_light_frustum(scene, {90, 45}, 0.05), 128);
+    const ShadowMapShape shape = map_of_size(made::fitted(scene, {90, 45}), 128);
     const Camera camera = made::camera_down({-1, 4, 0});
     const double texel = std::max(shape.texel().x, shape.texel().y) * std::sqrt(2.0);
     for (const std::string technique : {"hard", "pcf"}) {
@@ -247,13 +253,17 @@ TEST_F(Shadow, ColourFramesDrawWithAndWithoutSamples) {
     meshes.push_back(made::ground(0, 9));
     const Scene scene = made::scene_of(meshes);
     const GpuScene gpu = upload(scene);
-    const ShadowRenderer renderer = make_shadow_renderer(technique_named("pcf"), {0.05, FilterMode::automatic, 25},
-                                                         map_of_size(fit_light_frustum(scene, {90, 45}, 0.05), 128));
+    SceneState state;
+    state.camera = made::camera_down({-1, 4, 0});
+    state.light = directional_light({90, 45}, 0);
+    ShadowSettings settings = made::settings_of({0.05, FilterMode::automatic, 25});
+    settings.fixed_size = 128;
+    ShadowRenderer renderer(technique_named("pcf"), settings, gpu, state, 64.0 / 48);
     for (const int samples : {1, 4}) {
         const FrameTarget target = make_frame_target(Show::colour, 64, 48, samples);
         gl::PassTimer timer;
-        // draw_frame throws on any GL error.
-        draw_frame(gpu, {made::camera_down({-1, 4, 0}), {}, 3}, renderer, target, timer);
+        // Throws on any GL error.
+        renderer.draw(gpu, state, target, timer);
         const Image picture = read_colour(target);
         const uint8_t* shadow = picture.at(32, 24);
         const uint8_t* light = picture.at(2, 24);
@@ -262,23 +272,38 @@ TEST_F(Shadow, ColourFramesDrawWithAndWithoutSamples) {
     }
 }
 
+/// A map that nothing is drawn into.
+ShadowMap map_of(const ShadowMapShape& shape, double filter_radius) {
+    return {std::max(shape.width, shape.height), {}, shape, filter_radius};
+}
+
+std::unique_ptr<ShadowTechnique> made_pcf(const made::Filter& filter, const ShadowMap& map) {
+    return technique_named("pcf").make(made::settings_of(filter).technique, map, false);
+}
+
 TEST_F(Shadow, SettingsOutOfRangeAreInputErrors) {
-    const ShadowMapShape shape = shape_over(0.01, 101, 100);
-    const auto make = [&](const TechniqueSettings& settings) { technique_named("pcf").make(settings, shape); };
-    EXPECT_THROW(make({0.3, FilterMode::sampled, 24}), InputError);
-    EXPECT_THROW(make({0.3, FilterMode::sampled, 0}), InputError);
-    EXPECT_THROW(make({0.3, FilterMode::sampled, -25}), InputError);
-    EXPECT_THROW(make({0.3, FilterMode::sampled, 65 * 65}), InputError);
+    const auto make = [&](const made::Filter& filter) {
+        made_pcf(filter, map_of(shape_over(0.01, 101, 100), filter.radius));
+    };
+    for (const FilterMode mode : {FilterMode::regular, FilterMode::jittered}) {
+        EXPECT_THROW(make({0.3, mode, 24}), InputError);
+    }
+    for (const FilterMode mode :
+         {FilterMode::regular, FilterMode::jittered, FilterMode::poisson, FilterMode::rotated}) {
+        EXPECT_THROW(make({0.3, mode, 0}), InputError);
+        EXPECT_THROW(make({0.3, mode, -25}), InputError);
+        EXPECT_THROW(make({0.3, mode, 65 * 65}), InputError);
+    }
     EXPECT_THROW(make({3, FilterMode::exact, 25}), InputError);
     EXPECT_THROW(technique_named("ray"), InputError);
+    EXPECT_THROW(filter_mode_named("round"), InputError);
 }
 
 // The law's box takes 8 × 8 texels: 16 gathers.
 TEST_F(Shadow, GathersCoverTheBoxAndNoMore) {
     const auto gathers = [&](double radius_texels) {
-        return technique_named("pcf")
-            .make({radius_texels * 0.01, FilterMode::exact, 0}, shape_over(0.01, 100, 100))
-            ->lookups();
+        const ShadowMap map = map_of(shape_over(0.01, 100, 100), radius_texels * 0.01);
+        return made_pcf({map.filter_radius, FilterMode::exact, 0}, map)->lookups(map).filter;
     };
     EXPECT_EQ(gathers(0.5), 1);
     EXPECT_EQ(gathers(0.6), 4);

@@ -60,7 +60,7 @@ TEST_F(RasterConvention, SurfacesAreSeenAtPixelCentres) {
     scene.meshes.push_back(made::sphere(0.4f, 24));
     for (Vertex& vertex : scene.meshes.back().vertices) vertex.position += glm::vec3(1.1f, 1.2f, 0.4f);
     for (Mesh& mesh : scene.meshes) mesh.casts = false;
-    const ShadowMapShape unused = map_of_size(fit_light_frustum(lopsided_scene(), kLight, 0.1), 16);
+    const ShadowMapShape unused = map_of_size(made::fitted(lopsided_scene(), kLight), 16);
     const std::vector<float> drawn =
         made::draw_visibility(scene, kCamera, "none", {0.1, FilterMode::automatic, 25}, unused, kWidth, kHeight);
     const SceneState state{kCamera, directional_light(kLight, 0.05), {}};
@@ -73,7 +73,7 @@ TEST_F(RasterConvention, SurfacesAreSeenAtPixelCentres) {
 
 TEST_F(RasterConvention, APointsShadowIsThatOfAFineMap) {
     const Scene scene = lopsided_scene();
-    const ShadowMapShape shape = map_of_size(fit_light_frustum(scene, kLight, 0.01), 4096);
+    const ShadowMapShape shape = map_of_size(made::fitted(scene, kLight), 4096);
     const std::vector<float> drawn =
         made::draw_visibility(scene, kCamera, "hard", {0.01, FilterMode::automatic, 25}, shape, kWidth, kHeight);
     const SceneState state{kCamera, directional_light(kLight, 0), {}};
