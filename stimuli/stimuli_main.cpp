@@ -148,11 +148,22 @@ ImageEncoding encoding_of(const Options& options) {
 }
 
 /// What `--source` and a manifest's column source name. A shadow map's GL context opens when one is first asked for.
-LuminanceOf luminance_by(const std::string& source) {
+/// Where luminances come from, by name. A value of main's: what draws must be gone before the program's statics and the
+/// driver's go.
+class Sources {
+  public:
+    LuminanceOf operator()(const std::string& source);
+
+  private:
+    /// Made by its first use.
+    LuminanceOf shadow_map_;
+};
+
+LuminanceOf Sources::operator()(const std::string& source) {
     if (source == "exact") return luminance;
     if (source == "shadow-map") {
-        static const LuminanceOf shadow_map = shadow_map_source();
-        return shadow_map;
+        if (!shadow_map_) shadow_map_ = shadow_map_source();
+        return shadow_map_;
     }
     throw InputError("source \"" + source + "\"", "is unknown", "use exact or shadow-map");
 }
@@ -187,7 +198,7 @@ void generate(const Options& options) {
     batch.jobs = options.jobs;
     batch.shard = parse_shard(options.shard);
     batch.resume = options.resume;
-    const BatchSummary summary = write_batch(stimuli, batch, luminance_by(options.source));
+    const BatchSummary summary = write_batch(stimuli, batch, Sources()(options.source));
     if (!options.contact_sheet.empty()) write_png(options.contact_sheet, contact_sheet(stimuli, contours));
     std::cout << "wrote " << summary.written << " stimuli and " << summary.manifest << " to " << options.out;
     if (options.resume) std::cout << ", kept " << summary.kept;
@@ -220,7 +231,7 @@ void print(const Verification& result) {
 }
 
 void verify(const VerifyOptions& options) {
-    const Verification result = verify(options.folder, options.jobs, luminance_by);
+    const Verification result = stairstep::verify(options.folder, options.jobs, Sources());
     options.json ? print_json(result) : print(result);
     if (result.faults.empty()) return;
     throw FailureError(options.folder,

@@ -126,7 +126,7 @@ TEST_F(ReportTest, ItsTablesAreTheFits) {
 TEST_F(ReportTest, MethodsSayWhatWasDone) {
     const std::string& methods = file_of(report_, "methods.txt");
     for (const char* part : {"3 simulated observers", "patterns stair and step", "5 and 10 px", "quest", "160 × 120 px",
-                             "Knapp-Hartung", "Ceres Solver 2", "gnuplot 5", "82 %", "9 simulations",
+                             "sandwich", "Ceres Solver 2", "gnuplot 5", "82 %", "9 simulations",
                              "Seeds of the sessions: 7", "480 trials of 12 tracks"}) {
         EXPECT_NE(methods.find(part), std::string::npos) << part << "\n" << methods;
     }
