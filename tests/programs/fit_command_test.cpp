@@ -65,8 +65,8 @@ class FitCommand : public testing::Test {
                            " fit trials.csv --out law.json --bootstrap 200");
     }
 
-    /// What a number that is none is printed as; not part of a word.
-    inline static const std::regex kNoNumber{"\\b(nan|inf|null)\\b"};
+    /// What a number that is none is printed as. What isn't known is null.
+    inline static const std::regex kNoNumber{"\\b(nan|inf)\\b"};
 
     /// The law, which has no number that is none.
     Law fitted(const std::vector<Trial>& trials) {
