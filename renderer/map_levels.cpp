@@ -46,11 +46,15 @@ MapLevels::MapLevels(int capacity)
       program_(gl::make_program("levels", {embedded::fullscreen_vert}, {embedded::map_level_frag})),
       no_vertices_(gl::make_vertex_array()),
       texture_(gl::make_texture(GL_R32F, size_.x, size_.y)),
-      framebuffer_(gl::make_framebuffer(texture_.id(), 0)) {
+      framebuffer_(gl::make_framebuffer(texture_.id(), 0)),
+      ranges_(size_) {
     gl::TextureParameteri(texture_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl::TextureParameteri(texture_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl::TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl::TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    // Ranges see what lies between levels as well: it must be depths.
+    const glm::vec4 empty(1);
+    gl::ClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, &empty.x);
 }
 
 void MapLevels::fill(const ShadowMap& map) {
@@ -67,6 +71,11 @@ void MapLevels::fill(const ShadowMap& map) {
         gl::set_uniform(program_, "factor", place.factor);
         gl::DrawArrays(GL_TRIANGLES, 0, 3);
     }
+    glm::ivec2 used(0);
+    for (const LevelPlace& place : places_) {
+        used = glm::max(used, glm::ivec2(place.x + place.width, place.y + place.height) + kGuardTexels);
+    }
+    ranges_.fill(texture_.id(), used);
 }
 
 void MapLevels::bind(const gl::Program& program) const {
@@ -76,6 +85,7 @@ void MapLevels::bind(const gl::Program& program) const {
     gl::set_uniform(program, "level_count", static_cast<int>(places.size()));
     gl::set_uniform(program, "levels_scale", glm::vec2(1) / glm::vec2(size_));
     gl::BindTextureUnit(2, texture_.id());
+    ranges_.bind(program);
 }
 
 }  // namespace stairstep

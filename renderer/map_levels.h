@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "renderer/depth_ranges.h"
 #include "renderer/gl/program.h"
 #include "renderer/shadow_map.h"
 
@@ -41,12 +42,12 @@ class MapLevels {
   public:
     explicit MapLevels(int capacity);
 
-    /// Fills the levels from the map.
+    /// Fills the levels from the map, and finds the ranges of their depths.
     void fill(const ShadowMap& map);
 
     const std::vector<LevelPlace>& places() const { return places_; }
 
-    /// Sets what shaders/pcss_levels.glsl needs of them, on texture unit 2.
+    /// Sets what shaders/pcss_levels.glsl needs of them, on texture units 2 and 3.
     void bind(const gl::Program& program) const;
 
   private:
@@ -56,6 +57,7 @@ class MapLevels {
     /// R32F; empty texels hold 1.
     gl::Texture texture_;
     gl::Framebuffer framebuffer_;
+    DepthRanges ranges_;
     std::vector<LevelPlace> places_;
 };
 

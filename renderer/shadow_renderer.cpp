@@ -70,7 +70,6 @@ void set_receiver_uniforms(const gl::Program& program, const ShadowMap& map, con
     gl::set_uniform(program, "light_origin", glm::vec3(origin));
     gl::set_uniform(program, "texel_from_light", glm::mat4(texel_from_light));
     gl::set_uniform(program, "texel_plane_from_light", glm::mat4(glm::transpose(glm::inverse(texel_from_light))));
-    gl::set_uniform(program, "spot", light.kind == Light::Kind::spot ? 1 : 0);
     gl::set_uniform(program, "light_back", glm::vec3(light.basis.back));
     gl::set_uniform(program, "cone", glm::vec2(std::cos(cone * (1 - kConeFade)), std::cos(cone)));
     gl::set_uniform(program, "subpixel", std::ldexp(1.0f, -subpixel_bits));
@@ -126,8 +125,15 @@ double light_plane_radius(double radius, const Light& light, const glm::dvec3& m
     return radius / std::max(depth_along(light, middle), 1e-9);
 }
 
-gl::Program lighting_program(const std::string& name, const ShadowTechnique& technique, std::string_view what) {
-    gl::ShaderParts parts{embedded::receiver_glsl};
+/// A shader that knows its light's kind doesn't compute the other's.
+std::string_view preamble(Light::Kind kind) {
+    return kind == Light::Kind::spot ? "#version 450 core\nconst bool spot = true;\n"
+                                     : "#version 450 core\nconst bool spot = false;\n";
+}
+
+gl::Program lighting_program(const std::string& name, const ShadowTechnique& technique, Light::Kind light,
+                             std::string_view what) {
+    gl::ShaderParts parts{preamble(light), embedded::receiver_glsl};
     for (const std::string_view part : technique.shader()) parts.push_back(part);
     parts.push_back(what);
     return gl::make_program(name, {embedded::lighting_vert}, parts);
@@ -138,6 +144,7 @@ gl::Program lighting_program(const std::string& name, const ShadowTechnique& tec
 ShadowRenderer::ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                                const SceneState& first, double aspect)
     : settings_(settings),
+      name_(entry.name),
       map_(reserve_shadow_map(settings.fixed_size.value_or(settings.largest_size))),
       depth_program_(gl::make_program("depth", {embedded::depth_vert}, {embedded::depth_frag})) {
     // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
@@ -149,10 +156,17 @@ ShadowRenderer::ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings
             ? map_of_size(frustum, *settings.fixed_size)
             : map_by_law(frustum, {settings.technique.law_slope, map_.filter_radius, 0, 0, settings.largest_size});
     technique_ = entry.make(settings.technique, map_, !settings.fixed_size);
-    const std::string name(entry.name);
-    colour_program_ = lighting_program(name + " lighting", *technique_, embedded::lighting_frag);
-    visibility_program_ = lighting_program(name + " visibility", *technique_, embedded::visibility_frag);
     if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
+}
+
+const gl::Program& ShadowRenderer::lighting(Show show, Light::Kind light) {
+    gl::Program& program = programs_[static_cast<size_t>(show)][static_cast<size_t>(light)];
+    if (!program.id()) {
+        const bool colour = show == Show::colour;
+        program = lighting_program(name_ + (colour ? " lighting" : " visibility"), *technique_, light,
+                                   colour ? embedded::lighting_frag : embedded::visibility_frag);
+    }
+    return program;
 }
 
 ShadowMapShape ShadowRenderer::choose_shape(const LightFrustum& frustum, double filter_radius, const Camera& camera,
@@ -203,8 +217,7 @@ FrameTime ShadowRenderer::draw_with(const ShadowMapShape& shape, const GpuScene&
     const bool with_need = meter_ && target.samples == 1;
     timer.start();
     gl::BindVertexArray(scene.vertex_array.id());
-    draw_lighting_pass(scene, state, *technique_, map_,
-                       target.show == Show::colour ? colour_program_ : visibility_program_, target, with_need);
+    draw_lighting_pass(scene, state, *technique_, map_, lighting(target.show, state.light.kind), target, with_need);
     time.lighting = timer.stop();
     if (with_need) {
         timer.start();

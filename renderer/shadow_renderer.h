@@ -1,8 +1,10 @@
 // A technique at work: fits the light's frustum, chooses the map's size, draws the map and the picture, frame after frame.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "analysis/law/texel_choice.h"
 #include "renderer/frame_target.h"
@@ -69,12 +71,15 @@ class ShadowRenderer {
     FrameTime draw_fitted(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
                           gl::PassTimer& timer);
 
+    const gl::Program& lighting(Show show, Light::Kind light);
+
     ShadowSettings settings_;
+    std::string name_;
     std::unique_ptr<ShadowTechnique> technique_;
     ShadowMap map_;
     gl::Program depth_program_;
-    gl::Program colour_program_;
-    gl::Program visibility_program_;
+    /// By what is shown and the light's kind; made when they are first needed.
+    std::array<std::array<gl::Program, 2>, 2> programs_;
     std::optional<NeedMeter> meter_;
     TexelChoice choice_;
 };

@@ -1,9 +1,11 @@
-// Percentage-closer filtering (Reeves et al. 1987) with the box, exactly; box_filter.glsl goes before.
+// Percentage-closer filtering (Reeves et al. 1987) with the box, exactly; ranges.glsl and box_filter.glsl go before.
 
 // Half-width of the box, texels.
 uniform vec2 filter_radius;
 // 2 × 2 texels each; enough to cover the box wherever it lies.
 uniform int gathers_per_side;
+// Whether ranges are there; they are where the box touches no more than 8 texels.
+uniform int with_ranges;
 
 float visibility(Receiver receiver) {
     vec2 low = receiver.texel - filter_radius;
@@ -12,14 +14,22 @@ float visibility(Receiver receiver) {
     vec2 begin = low - first;
     vec2 end = begin + 2 * filter_radius;
 
+    int alike = 0;
+    if (with_ranges != 0) {
+        vec2 half_width = vec2(gathers_per_side);
+        alike = all_alike(receiver, first + half_width, half_width, range_from(first + kGuard));
+    }
+    // A loop that isn't entered costs nothing, where a branch around one may be flattened.
+    int gathers = alike == 0 ? gathers_per_side : 0;
+
     // The first four texels share a corner at first + 1; textureGather returns them from the upper left clockwise.
     vec2 corner = first + 1;
     vec4 corner_depth = plane_depth(receiver, corner.x + vec4(-0.5, 0.5, 0.5, -0.5),
                                     corner.y + vec4(0.5, 0.5, -0.5, -0.5));
     float lit_area = 0;
-    for (int j = 0; j < gathers_per_side; ++j) {
+    for (int j = 0; j < gathers; ++j) {
         vec2 height = overlap(2 * j, begin.y, end.y);
-        for (int i = 0; i < gathers_per_side; ++i) {
+        for (int i = 0; i < gathers; ++i) {
             vec2 width = overlap(2 * i, begin.x, end.x);
             vec2 step_texels = 2 * vec2(i, j);
             vec4 stored = stored_around(corner + step_texels);
@@ -28,5 +38,5 @@ float visibility(Receiver receiver) {
         }
     }
     vec2 side = end - begin;
-    return clamp(lit_area / (side.x * side.y), 0, 1);
+    return alike == 0 ? clamp(lit_area / (side.x * side.y), 0, 1) : float(alike > 0);
 }

@@ -3,7 +3,7 @@
 //
 // A level of factor f is what a map of f times the texel would hold: the depth at the centre of each of its texels. Factors
 // are 1, 2, 3, 4, 6, 8, 12 …; an even one's texel centres lie on the finest map's where its grid is moved by half a texel
-// of that. box_filter.glsl goes before.
+// of that. ranges.glsl and box_filter.glsl go before.
 
 layout(binding = 2) uniform sampler2D levels;
 uniform vec2 levels_scale;  // 1 / size of the texture
@@ -51,6 +51,12 @@ vec2 blocked_and_depth(Receiver receiver, int level, vec2 radius) {
     vec2 begin = low - first;
     vec2 end = high - first;
     ivec2 gathers = ivec2(ceil(end / 2 - 1e-4));
+
+    // All lit: nothing to add up. A loop that isn't entered costs nothing, where a branch around one may be flattened.
+    bool in_window = max(gathers.x, gathers.y) <= 4;
+    vec2 range = range_from(place.xy + first);
+    if (in_window && all_alike(receiver, first + vec2(gathers), vec2(gathers), range) > 0) gathers = ivec2(0);
+
     // The first four texels share a corner at first + 1; textureGather returns them from the upper left clockwise.
     vec2 corner = first + 1;
     vec4 corner_depth = plane_depth(receiver, corner.x + vec4(-0.5, 0.5, 0.5, -0.5),

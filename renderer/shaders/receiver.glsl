@@ -1,8 +1,8 @@
-#version 450 core
 // The receiver: the surface point whose visibility is asked for. Every technique gets one and defines
 //
 //     float visibility(Receiver receiver);      1 lit, 0 in shadow
 //
+// Ahead of it go the version and `const bool spot`: whether the light is a spot, known when the shader is compiled.
 // Texel space is shadow_map_shape.h's: x and y in texels of the shadow map, depth in [0, 1].
 
 struct Receiver {
@@ -19,7 +19,7 @@ float visibility(Receiver receiver);
 // The texel, in the light plane, that this pixel needs: written beside its colour by techniques that size their map by
 // what pixels need. As it is, none.
 float needed_texel = 1e30;
-// The texel, in the light plane, whose longer side on the screen is this pixel's.
+// Side of the texel, in the light plane, that covers as much of the surface as this pixel does.
 float footprint = 0;
 
 // The map lies in its texture with guard texels around it, which are empty.
@@ -33,7 +33,6 @@ uniform vec3 light_origin;
 uniform mat4 texel_from_light;
 // What planes transform by: the inverse's transpose.
 uniform mat4 texel_plane_from_light;
-uniform int spot;
 // Directional: to the light. Spot: against its axis.
 uniform vec3 light_back;
 // Cosines of the angles where a spot's light begins to fade and where it ends.
@@ -57,10 +56,10 @@ vec3 facet_normal(vec3 world) {
     return dot(normal, eye - world) < 0 ? -normal : normal;
 }
 
-vec3 to_light(vec3 world) { return spot != 0 ? normalize(light_origin - world) : light_back; }
+vec3 to_light(vec3 world) { return spot ? normalize(light_origin - world) : light_back; }
 
 // Share of a spot's light that goes this way.
-float in_cone(vec3 to_light) { return spot != 0 ? smoothstep(cone.y, cone.x, dot(to_light, light_back)) : 1; }
+float in_cone(vec3 to_light) { return spot ? smoothstep(cone.y, cone.x, dot(to_light, light_back)) : 1; }
 
 // The receiver at a surface point with this normal, which faces the light.
 Receiver receiver_at(vec3 world, vec3 normal, vec3 to_light) {
@@ -79,15 +78,6 @@ Receiver receiver_at(vec3 world, vec3 normal, vec3 to_light) {
     return Receiver(texel.xy, texel.z, slope, steepness * (subpixel + rounding) + 16 * 1.2e-7);
 }
 
-// The light-plane lengths that a pixel's two sides cover, sides of a parallelogram: a texel as narrow as its narrower
-// extent is one pixel long on the screen. The extents are the singular values of the two sides' matrix.
-float narrowest_extent(vec2 across, vec2 up) {
-    float squares = dot(across, across) + dot(up, up);
-    float area = abs(across.x * up.y - across.y * up.x);
-    float longest = sqrt((squares + sqrt(max(squares * squares - 4 * area * area, 0))) / 2);
-    return area / max(longest, 1e-30);
-}
-
 // Side of a texel in the light plane.
 uniform vec2 texel_side;
 
@@ -96,7 +86,9 @@ uniform vec2 texel_side;
 float light_at(vec3 world, vec3 facet, vec3 to_light) {
     Receiver receiver = receiver_at(world, facet, to_light);
     // Here, as derivatives need all of a quad's pixels.
-    footprint = narrowest_extent(dFdx(receiver.texel) * texel_side, dFdy(receiver.texel) * texel_side);
+    vec2 across = dFdx(receiver.texel) * texel_side;
+    vec2 up = dFdy(receiver.texel) * texel_side;
+    footprint = sqrt(abs(across.x * up.y - across.y * up.x));
     if (dot(facet, to_light) <= 0 || in_cone(to_light) <= 0) return 0;
     return visibility(receiver);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "embedded/shaders.h"
+#include "renderer/depth_ranges.h"
 #include "renderer/techniques/taps.h"
 #include "stimuli/error.h"
 #include "stimuli/number.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr double kNarrowestExact = 1e-3;
 /// Exact filtering beyond this many texels a side takes seconds a frame.
 constexpr double kWidestExact = 128;
+
+/// Finding the ranges of more takes as long as they save.
+constexpr size_t kMostTexelsForRanges = size_t{4} << 20;
 
 glm::dvec2 radius_texels(const ShadowMap& map) {
     return map.filter_radius / map.shape.texel();
@@ -33,8 +37,15 @@ void require_narrow(const ShadowMap& map) {
 
 class PcfExact final : public ShadowTechnique {
   public:
+    explicit PcfExact(int texture_side) : ranges_(glm::ivec2(texture_side)) {}
+
     std::vector<std::string_view> shader() const override {
-        return {embedded::box_filter_glsl, embedded::pcf_exact_glsl};
+        return {embedded::ranges_glsl, embedded::box_filter_glsl, embedded::pcf_exact_glsl};
+    }
+
+    void prepare(const ShadowMap& map) override {
+        if (!has_ranges(map)) return;
+        ranges_.fill(map.memory.depth.id(), glm::ivec2(map.shape.width, map.shape.height) + 2 * kGuardTexels);
     }
 
     double reach(const LightFrustum&, double filter_radius) const override { return filter_radius; }
@@ -44,6 +55,8 @@ class PcfExact final : public ShadowTechnique {
         const glm::dvec2 radius = glm::max(radius_texels(map), glm::dvec2(kNarrowestExact));
         gl::set_uniform(program, "filter_radius", glm::vec2(radius));
         gl::set_uniform(program, "gathers_per_side", gathers_per_side(map));
+        gl::set_uniform(program, "with_ranges", has_ranges(map) ? 1 : 0);
+        ranges_.bind(program);
     }
 
     Lookups lookups(const ShadowMap& map) const override {
@@ -51,12 +64,20 @@ class PcfExact final : public ShadowTechnique {
     }
 
   private:
+    /// Whether windows hold the box, and finding them costs less than they save.
+    static bool has_ranges(const ShadowMap& map) {
+        return 2 * gathers_per_side(map) + kWindowStep - 1 <= kWindowWidth &&
+               map.shape.texel_count() <= kMostTexelsForRanges;
+    }
+
     static int gathers_per_side(const ShadowMap& map) {
         // A box of width 2r touches at most floor(2r) + 2 texels, and no more than 2r + 1 where 2r is whole.
         // The law gives 2r = 6.94: 8 texels. The slack keeps rounding in 2r from costing a gather.
         const double width = std::max(width_texels(map), 2 * kNarrowestExact);
         return static_cast<int>(std::ceil((width + 1) / 2 - 1e-6));
     }
+
+    DepthRanges ranges_;
 };
 
 class PcfSampled final : public ShadowTechnique {
@@ -85,7 +106,7 @@ std::unique_ptr<ShadowTechnique> make_pcf(const TechniqueSettings& settings, con
     }
     if (filter == FilterMode::exact) {
         require_narrow(first);
-        return std::make_unique<PcfExact>();
+        return std::make_unique<PcfExact>(first.texture_side());
     }
     return std::make_unique<PcfSampled>(filter, settings.filter_taps);
 }

@@ -49,7 +49,7 @@ class PcssLevels final : public ShadowTechnique {
     PcssLevels(int capacity, double slope) : levels_(capacity), slope_(slope) {}
 
     std::vector<std::string_view> shader() const override {
-        return {embedded::box_filter_glsl, embedded::pcss_levels_glsl};
+        return {embedded::ranges_glsl, embedded::box_filter_glsl, embedded::pcss_levels_glsl};
     }
 
     bool measures_need() const override { return true; }
