@@ -111,7 +111,7 @@ struct FitCommand {
     std::string p_thresholds = format_number(kDefaultProbability);
     std::optional<double> out_p;
     LawFitOptions law{.bootstrap = {.replicates = 2000, .jobs = 0}};
-    std::string method{name(SlopeMethod::knapp_hartung)};
+    std::string method{name(LawFitOptions{}.method)};
     int simulations = StudyCheckOptions{}.simulations;
     bool as_json = false;
 };
