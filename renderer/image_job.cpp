@@ -10,6 +10,7 @@
 #include "renderer/scene_import.h"
 #include "renderer/shadow_renderer.h"
 #include "renderer/techniques/techniques.h"
+#include "renderer/truth/area_light_truth.h"
 #include "stimuli/error.h"
 #include "stimuli/io/json_file.h"
 #include "stimuli/io/output_file.h"
@@ -105,6 +106,7 @@ double frame_ms(const Rendering& rendering) {
 
 /// What is drawn.
 struct Subject {
+    const Scene& model;
     const GpuScene& scene;
     const SceneState& state;
 };
@@ -136,24 +138,52 @@ std::vector<float> draw_visibility(const Subject& subject, ShadowRenderer& rende
     return read_visibility(target);
 }
 
-/// Draws the reference, measures every rendering against it and returns its picture.
-Image measure_errors(std::vector<Rendering>& renderings, const ImageJob& job, const ShadowSettings& settings,
-                     const Subject& subject) {
-    const FrameTarget target = make_frame_target(Show::visibility, job.width, job.height, 1);
+/// The visibility that renderings are measured against, its picture, and what it is.
+struct Truth {
+    std::vector<float> visibility;
+    Image picture;
+    ordered_json description;
+};
+
+/// Of an area light: what tracing rays to it finds.
+Truth trace_truth(const ImageJob& job, const Subject& subject) {
+    Progress progress("tracing the truth", 1);
+    Truth truth;
+    truth.visibility = area_light_visibility(subject.model, subject.state, job.width, job.height);
+    truth.picture = visibility_picture(truth.visibility, job.width, job.height);
+    truth.description = {{"kind", "area light"}, {"samples", kTruthSamples}};
+    return truth;
+}
+
+/// Of a filter of constant radius: the same, converged.
+Truth draw_truth(const ImageJob& job, const ShadowSettings& settings, const Subject& subject) {
     ShadowSettings converged = settings;
     converged.technique.filter = FilterMode::jittered;
     converged.technique.filter_taps = kTruthTaps;
     converged.fixed_size = kTruthSize;
     ShadowRenderer reference(technique_named("pcf"), converged, subject.scene, subject.state,
                              static_cast<double>(job.width) / job.height);
-    Progress progress("drawing the truth", 2);
-    const std::vector<float> truth = draw_visibility(subject, reference, target);
+    Progress progress("drawing the truth", 1);
+    Truth truth;
+    truth.visibility =
+        draw_visibility(subject, reference, make_frame_target(Show::visibility, job.width, job.height, 1));
+    truth.picture =
+        job.show == Show::visibility
+            ? visibility_picture(truth.visibility, job.width, job.height)
+            : draw_picture(subject, reference, make_frame_target(job.show, job.width, job.height, job.samples));
+    truth.description = {
+        {"kind", "converged filter"}, {"width", kTruthSize}, {"height", kTruthSize}, {"taps", kTruthTaps}};
+    return truth;
+}
+
+Truth measure_errors(std::vector<Rendering>& renderings, const ImageJob& job, const ShadowSettings& settings,
+                     const Subject& subject) {
+    Truth truth = job.technique == "pcss" ? trace_truth(job, subject) : draw_truth(job, settings, subject);
+    const FrameTarget target = make_frame_target(Show::visibility, job.width, job.height, 1);
     for (Rendering& rendering : renderings) {
-        rendering.error = compare_visibility(draw_visibility(subject, rendering.renderer, target), truth);
+        rendering.error = compare_visibility(draw_visibility(subject, rendering.renderer, target), truth.visibility);
     }
-    progress.advance();
-    if (job.show == Show::visibility) return visibility_picture(truth, job.width, job.height);
-    return draw_picture(subject, reference, make_frame_target(job.show, job.width, job.height, job.samples));
+    return truth;
 }
 
 ordered_json describe(const Rendering& rendering, const std::string& file, double radius, double pixel,
@@ -223,7 +253,7 @@ ordered_json run_image_job(const ImageJob& job) {
 
     const auto context = gl::make_context(job.context);
     const GpuScene gpu_scene = upload(scene);
-    const Subject subject{gpu_scene, state};
+    const Subject subject{scene, gpu_scene, state};
     const FrameTarget target = make_frame_target(job.show, job.width, job.height, job.samples);
     ShadowSettings settings;
     settings.technique = {job.filter, job.taps, job.search_taps, slope};
@@ -266,11 +296,11 @@ ordered_json run_image_job(const ImageJob& job) {
 
     for (Rendering& rendering : renderings) rendering.picture = draw_picture(subject, rendering.renderer, target);
     if (job.truth) {
-        const Image truth = measure_errors(renderings, job, settings, subject);
+        const Truth truth = measure_errors(renderings, job, settings, subject);
         const fs::path file = labelled(job.out, "truth");
-        write_png(file, truth);
-        stats["truth"] = {
-            {"file", name_in_stats(job, file)}, {"width", kTruthSize}, {"height", kTruthSize}, {"taps", kTruthTaps}};
+        write_png(file, truth.picture);
+        stats["truth"] = truth.description;
+        stats["truth"]["file"] = name_in_stats(job, file);
     }
     stats["renderings"] = ordered_json::array();
     for (size_t i = 0; i < renderings.size(); ++i) {

@@ -44,7 +44,7 @@ struct ImageJob {
     /// Tangent of half the angle under which the light, a square, is seen, ≥ 0: how soft pcss draws. The sun's is 0.00465.
     double light_half_tangent = 0.05;
     Show show = Show::colour;
-    /// Whether to draw a converged reference and measure each rendering's visibility against it.
+    /// Whether to draw a converged reference (for pcss, trace the area light) and measure each rendering's visibility against it.
     bool truth = false;
     /// The picture, PNG. For two or more resolutions their names go before the extension: out-4096.png,
     /// out-auto.png, and out-difference.png (first against last); so does out-truth.png.
@@ -62,7 +62,9 @@ struct ImageJob {
 ///   radius, radius_px_on_screen
 ///   light_extent               what the map must span along its two axes
 ///   law                        file, kernel, slope, slope_for_box, kernel_converted, texel_range_px
-///   truth                      with `truth` only: file, and the reference's width, height and taps
+///   truth                      with `truth` only: file, kind and, for a converged filter, its map's width and height and its
+///                              taps, or, for pcss, the samples of the area light that rays were traced to (the picture is
+///                              then of visibility)
 ///   difference, speedup        for two or more: the first against the last; the fields of PictureDifference
 ///   renderings                 one a resolution:
 ///     resolution, width, height, texels, file

@@ -198,7 +198,9 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
     command->add_option("--show", options.show, "the lit scene, or visibility alone")
         ->check(CLI::IsMember({"colour", "visibility"}))
         ->capture_default_str();
-    command->add_flag("--truth", job.truth, "also draw a converged reference and measure the error against it");
+    command->add_flag(
+        "--truth", job.truth,
+        "also draw a converged reference (pcss: trace rays to the light) and measure the error against it");
     command->add_option("--out", job.out, "PNG; for several resolutions NAME-4096.png and so on")->required();
     command->add_option("--stats", job.stats, "JSON file for sizes, times and errors");
     command->add_flag("--json", options.json, "print the statistics as JSON");

@@ -2,6 +2,8 @@
 
 // Half-width of a penumbra's filter, texels, for each unit between the stored depths of receiver and caster.
 uniform vec2 softness;
+// c: half-width in texels of the narrowest filter that hides its texels.
+uniform float law_slope;
 
 float visibility(Receiver receiver) {
     // Casters lie beyond depth 0: none further off to the side can be in the way.
@@ -19,5 +21,8 @@ float visibility(Receiver receiver) {
     // At contacts a texel's width is what the map can show.
     vec2 radius = max(softness * (receiver.depth - sum / max(blockers, 1)), 0.5);
     float share = lit_share(receiver, radius);
+    if (blockers > 0 && share > 0 && share < 1) {
+        needed_texel = max(min(radius.x * texel_side.x, radius.y * texel_side.y) / law_slope, footprint);
+    }
     return blockers == 0 ? 1 : share;
 }

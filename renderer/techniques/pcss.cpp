@@ -24,8 +24,12 @@ double search_reach(const LightFrustum& frustum) {
 
 class PcssSampled final : public ShadowTechnique {
   public:
-    PcssSampled(FilterMode filter, int filter_taps, int search_taps)
-        : filter_(filter, filter_taps, "--taps"), search_(filter, search_taps, "--search-taps") {}
+    PcssSampled(FilterMode filter, const TechniqueSettings& settings)
+        : filter_(filter, settings.filter_taps, "--taps"),
+          search_(filter, settings.search_taps, "--search-taps"),
+          slope_(settings.law_slope) {}
+
+    bool measures_need() const override { return true; }
 
     std::vector<std::string_view> shader() const override { return {embedded::taps_glsl, embedded::pcss_glsl}; }
 
@@ -33,6 +37,7 @@ class PcssSampled final : public ShadowTechnique {
 
     void bind(const gl::Program& program, const ShadowMap& map) const override {
         set_softness(program, map);
+        gl::set_uniform(program, "law_slope", static_cast<float>(slope_));
         filter_.bind(program, 0);
         search_.bind(program, 1);
     }
@@ -42,6 +47,7 @@ class PcssSampled final : public ShadowTechnique {
   private:
     TapSet filter_;
     TapSet search_;
+    double slope_;
 };
 
 class PcssLevels final : public ShadowTechnique {
@@ -80,7 +86,7 @@ std::unique_ptr<ShadowTechnique> make_pcss(const TechniqueSettings& settings, co
     FilterMode filter = settings.filter;
     if (filter == FilterMode::automatic) filter = by_law ? FilterMode::exact : FilterMode::rotated;
     if (filter == FilterMode::exact) return std::make_unique<PcssLevels>(first.capacity, settings.law_slope);
-    return std::make_unique<PcssSampled>(filter, settings.filter_taps, settings.search_taps);
+    return std::make_unique<PcssSampled>(filter, settings);
 }
 
 }  // namespace
