@@ -8,6 +8,7 @@
 #include "renderer/comparison.h"
 #include "renderer/gl/context.h"
 #include "renderer/scene_import.h"
+#include "renderer/scenes/scenes.h"
 #include "renderer/shadow_renderer.h"
 #include "renderer/techniques/techniques.h"
 #include "renderer/truth/area_light_truth.h"
@@ -73,14 +74,68 @@ double box_slope(const Law& law, const ImageJob& job) {
     return slope_for_kernel(law, KernelShape::box);
 }
 
-double filter_radius_of(const ImageJob& job, const Bounds& casters) {
-    const double radius = job.radius.value_or(0.025 * casters.diagonal());
+/// What the picture is of.
+struct Staged {
+    Scene scene;
+    SceneState state;
+    /// Without the ground of a model.
+    size_t triangles = 0;
+    Bounds casters;
+    double radius = 0;
+};
+
+double checked_radius(double radius, const Bounds& casters) {
     // Written so that NaN fails. Beyond the model's own size the map would be all margin.
-    if (!(radius > 0 && radius <= casters.diagonal())) {
-        throw InputError("--radius " + format_number(radius), "must be above 0 and at most the model's diagonal",
-                         "use one up to " + format_fixed(casters.diagonal(), 3) + " world units");
+    if (radius > 0 && radius <= casters.diagonal()) return radius;
+    throw InputError("--radius " + format_number(radius), "must be above 0 and at most the model's diagonal",
+                     "use one up to " + format_fixed(casters.diagonal(), 3) + " world units");
+}
+
+/// A light whose square is seen under another angle.
+Light resized(Light light, const std::optional<double>& half_tangent) {
+    if (half_tangent) light.half_side = *half_tangent * light.distance;
+    return light;
+}
+
+Staged stage_model(const ImageJob& job, double aspect) {
+    ImportedScene imported = import_scene(job.scene);
+    for (const std::string& warning : imported.warnings) warn(job.scene.c_str(), warning.c_str());
+    Staged staged;
+    staged.scene = std::move(imported.scene);
+    staged.triangles = triangle_count(staged.scene);
+    staged.casters = caster_bounds(staged.scene);
+    const double diagonal = staged.casters.diagonal();
+    staged.radius = checked_radius(job.radius.value_or(0.025 * diagonal), staged.casters);
+    add_ground(staged.scene, 8);
+    const Direction light = job.light.value_or(Direction{-50, 48});
+    staged.state.light = directional_light(light, job.light_half_tangent.value_or(0.05));
+    staged.state.camera =
+        framing_camera(points_of_interest(staged.casters, light), job.camera.value_or(Direction{35, 24}), aspect,
+                       job.camera_distance, 8 * diagonal);
+    return staged;
+}
+
+Staged stage_scene(const ImageJob& job, double aspect) {
+    AnimatedScene animated = scene_named(job.scene);
+    Staged staged;
+    staged.scene = std::move(animated.scene);
+    staged.triangles = triangle_count(staged.scene);
+    staged.state = animated.state(Motion::still, 0);
+    staged.casters = caster_bounds(staged.scene, staged.state);
+    staged.radius = checked_radius(job.radius.value_or(animated.radius), staged.casters);
+    if (job.light) staged.state.light = directional_light(*job.light, staged.state.light.half_tangent());
+    staged.state.light = resized(staged.state.light, job.light_half_tangent);
+    if (job.camera) {
+        const Direction light = direction_of(staged.state.light.basis.back);
+        staged.state.camera = framing_camera(points_of_interest(staged.casters, light), *job.camera, aspect,
+                                             job.camera_distance, 8 * staged.casters.diagonal());
     }
-    return radius;
+    return staged;
+}
+
+Staged stage(const ImageJob& job, double aspect) {
+    const bool named = std::ranges::find(scenes(), job.scene, &SceneEntry::name) != scenes().end();
+    return named ? stage_scene(job, aspect) : stage_model(job, aspect);
 }
 
 double distance_along_view(const Camera& camera, const glm::dvec3& point) {
@@ -186,8 +241,8 @@ Truth measure_errors(std::vector<Rendering>& renderings, const ImageJob& job, co
     return truth;
 }
 
-ordered_json describe(const Rendering& rendering, const std::string& file, double radius, double pixel,
-                      const Interval& law_range) {
+/// `pixel` is in the light plane.
+ordered_json describe(const Rendering& rendering, const std::string& file, double pixel, const Interval& law_range) {
     const ShadowMapShape& shape = rendering.renderer.map().shape;
     const ShadowTechnique::Lookups lookups = rendering.renderer.technique().lookups(rendering.renderer.map());
     const std::string lookup_kind = lookups.gathers ? "gathers" : "taps";
@@ -200,7 +255,7 @@ ordered_json describe(const Rendering& rendering, const std::string& file, doubl
     json["height"] = shape.height;
     json["texels"] = shape.texel_count();
     json["limited_by"] = name(shape.limit);
-    json["radius_in_texels"] = radius / texel;
+    json["radius_in_texels"] = rendering.renderer.map().filter_radius / texel;
     json["texel_px_on_screen"] = texel_px;
     json["extrapolates"] = texel_px < law_range.first || texel_px > law_range.second;
     json["filter"] = lookups.gathers ? "exact" : lookups.filter > 1 ? "sampled" : "none";
@@ -236,24 +291,20 @@ ordered_json run_image_job(const ImageJob& job) {
     // What can't be written is found out before anything is drawn.
     for (const fs::path& file : files) OutputFile probe(file);
 
-    ImportedScene imported = import_scene(job.scene);
-    for (const std::string& warning : imported.warnings) warn(job.scene.string().c_str(), warning.c_str());
-    Scene& scene = imported.scene;
-    const size_t triangles = triangle_count(scene);
-    const Bounds casters = caster_bounds(scene);
-    const double radius = filter_radius_of(job, casters);
-    add_ground(scene, 8);
-
-    const std::vector<glm::dvec3> points = points_of_interest(casters, job.light);
     const double aspect = static_cast<double>(job.width) / job.height;
-    SceneState state;
-    state.camera = framing_camera(points, job.camera, aspect, job.camera_distance, 8 * casters.diagonal());
-    state.light = directional_light(job.light, job.light_half_tangent);
-    const double pixel = pixel_footprint(state.camera, distance_along_view(state.camera, casters.centre()), job.height);
+    const Staged staged = stage(job, aspect);
+    const SceneState& state = staged.state;
+    const double radius = staged.radius;
+    const double distance = distance_along_view(state.camera, staged.casters.centre());
+    const double pixel = pixel_footprint(state.camera, std::max(distance, state.camera.near), job.height);
+
+    // Light-plane lengths of a spot are tangents.
+    const bool spot = state.light.kind == Light::Kind::spot;
+    const double world_per_plane = spot ? depth_along(state.light, staged.casters.centre()) : 1;
 
     const auto context = gl::make_context(job.context);
-    const GpuScene gpu_scene = upload(scene);
-    const Subject subject{scene, gpu_scene, state};
+    const GpuScene gpu_scene = upload(staged.scene);
+    const Subject subject{staged.scene, gpu_scene, state};
     const FrameTarget target = make_frame_target(job.show, job.width, job.height, job.samples);
     ShadowSettings settings;
     settings.technique = {job.filter, job.taps, job.search_taps, slope};
@@ -275,8 +326,8 @@ ordered_json run_image_job(const ImageJob& job) {
 
     ordered_json stats;
     stats["program"] = "stairstep-render " STAIRSTEP_VERSION;
-    stats["scene"] = job.scene.string();
-    stats["triangles"] = triangles;
+    stats["scene"] = job.scene;
+    stats["triangles"] = staged.triangles;
     stats["technique"] = job.technique;
     stats["law"] = {{"file", job.law},
                     {"kernel", name(law.kernel)},
@@ -306,7 +357,7 @@ ordered_json run_image_job(const ImageJob& job) {
     for (size_t i = 0; i < renderings.size(); ++i) {
         write_png(files[i], renderings[i].picture);
         stats["renderings"].push_back(
-            describe(renderings[i], name_in_stats(job, files[i]), radius, pixel, law.texel_range_px));
+            describe(renderings[i], name_in_stats(job, files[i]), pixel / world_per_plane, law.texel_range_px));
     }
     if (renderings.size() > 1) {
         const Rendering& first = renderings.front();

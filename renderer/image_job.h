@@ -17,7 +17,8 @@
 namespace stairstep {
 
 struct ImageJob {
-    std::filesystem::path scene;
+    /// A model's file, or the name of a scene (scenes/scenes.h).
+    std::string scene;
     std::string technique = "pcf";
     /// Sides of fixed square maps; nullopt is the law's own size. At least one, none twice.
     std::vector<std::optional<int>> resolutions{std::nullopt};
@@ -25,7 +26,7 @@ struct ImageJob {
     std::string law = "kreuzer2017";
     /// Whether a law of another kernel than the box may be converted by equal variance.
     bool convert_kernel = false;
-    /// Half-width of the box, world units; by default 2.5 % of the diagonal of the model's bounds.
+    /// Half-width of the box, world units; by default a scene's own, and 2.5 % of the diagonal of a model's bounds.
     std::optional<double> radius;
     FilterMode filter = FilterMode::automatic;
     int taps = 25;
@@ -38,11 +39,14 @@ struct ImageJob {
     int samples = 1;
     /// Frames timed for each resolution, ≥ 1, after one that isn't.
     int frames = 5;
-    Direction camera{35, 24};
+    /// By default a scene's own, and for a model from azimuth 35°, elevation 24°.
+    std::optional<Direction> camera;
     double camera_distance = 1;
-    Direction light{-50, 48};
+    /// A directional light from there; by default a scene's own, and for a model from −50°, 48°.
+    std::optional<Direction> light;
     /// Tangent of half the angle under which the light, a square, is seen, ≥ 0: how soft pcss draws. The sun's is 0.00465.
-    double light_half_tangent = 0.05;
+    /// By default a scene's own, and for a model 0.05.
+    std::optional<double> light_half_tangent;
     Show show = Show::colour;
     /// Whether to draw a converged reference (for pcss, trace the area light) and measure each rendering's visibility against it.
     bool truth = false;

@@ -7,6 +7,7 @@
 #include "analysis/law/law_file.h"
 #include "analysis/law/sizing.h"
 #include "renderer/image_job.h"
+#include "renderer/scenes/scenes.h"
 #include "renderer/techniques/techniques.h"
 #include "stimuli/error.h"
 #include "stimuli/io/program.h"
@@ -32,8 +33,8 @@ struct ImageOptions {
     std::string filter = "auto";
     std::string context = "osmesa";
     std::string fit = "axes";
-    std::string camera = "35,24";
-    std::string light = "-50,48";
+    std::string camera;
+    std::string light;
     std::string show = "colour";
     bool json = false;
 };
@@ -117,12 +118,12 @@ ImageJob job_of(const ImageOptions& options) {
     job.filter = filter_mode_named(options.filter);
     job.context = gl::context_kind_named(options.context);
     job.fit = options.fit == "smallest" ? Fit::smallest_rectangle : Fit::axis_aligned;
-    if (!(job.light_half_tangent >= 0 && job.light_half_tangent <= 1)) {
-        throw InputError("--light-size " + format_number(job.light_half_tangent), "must be from 0 to 1",
+    if (job.light_half_tangent && !(*job.light_half_tangent >= 0 && *job.light_half_tangent <= 1)) {
+        throw InputError("--light-size " + format_number(*job.light_half_tangent), "must be from 0 to 1",
                          "use for example 0.05; the sun's is 0.00465");
     }
-    job.camera = direction_of("--camera", options.camera, &job.camera_distance);
-    job.light = direction_of("--light", options.light, nullptr);
+    if (!options.camera.empty()) job.camera = direction_of("--camera", options.camera, &job.camera_distance);
+    if (!options.light.empty()) job.light = direction_of("--light", options.light, nullptr);
     job.show = options.show == "visibility" ? Show::visibility : Show::colour;
     if (job.out.extension() != ".png") {
         throw InputError("--out", "\"" + job.out.string() + "\" is no PNG file name", "use a name that ends in .png");
@@ -155,7 +156,10 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
             (techniques.empty() ? "" : ", ") + std::string(entry.name) + " (" + std::string(entry.summary) + ")";
     }
     CLI::App* command = app.add_subcommand("image", "Draws a model on a ground plane with shadows, and measures it.");
-    command->add_option("scene", job.scene, "a model: glTF, OBJ, Collada and others")->required();
+    std::string named;
+    for (const SceneEntry& entry : scenes()) named += ", " + std::string(entry.name);
+    command->add_option("scene", job.scene, "a model (glTF, OBJ, Collada and others), or one of" + named.substr(1))
+        ->required();
     command->add_option("--technique", job.technique, techniques)->capture_default_str();
     command
         ->add_option("--resolution", options.resolution,
@@ -164,7 +168,7 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
     command->add_option("--law", job.law, "law.json, or kreuzer2017")->capture_default_str();
     command->add_flag("--convert-kernel", job.convert_kernel, "accept a law of another kernel, by equal variance");
     command->add_option("--radius", job.radius,
-                        "half-width of the filter, world units; default: 2.5 % of the model's diagonal");
+                        "half-width of the filter, world units; default: a scene's own, 2.5 % of a model's diagonal");
     command
         ->add_option("--filter", options.filter,
                      "exact weighs every texel; regular, jittered (or sampled), poisson and rotated take --taps")
@@ -174,9 +178,11 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
         ->capture_default_str();
     command->add_option("--search-taps", job.search_taps, "of pcss's blocker search, likewise")->capture_default_str();
     command
-        ->add_option("--light-size", job.light_half_tangent,
-                     "for pcss: tangent of half the angle that the light is seen under; the sun's is 0.00465")
-        ->capture_default_str();
+        ->add_option(
+            "--light-size", job.light_half_tangent,
+            "for pcss: tangent of half the angle that the light is seen under (a spot: half its side, world units); "
+            "default: a scene's own, 0.05 for a model; the sun's is 0.00465")
+        ->check(CLI::Number);
     command->add_option("--fit", options.fit, "the map lies along the light's axes, or as makes it smallest")
         ->check(CLI::IsMember({"axes", "smallest"}))
         ->capture_default_str();
@@ -192,9 +198,10 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
     command->add_option("--frames", job.frames, "timed for each resolution")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    command->add_option("--camera", options.camera, "azimuth,elevation[,distance factor]; degrees")
-        ->capture_default_str();
-    command->add_option("--light", options.light, "azimuth,elevation; degrees")->capture_default_str();
+    command->add_option("--camera", options.camera,
+                        "azimuth,elevation[,distance factor]; degrees; default: a scene's own, 35,24 for a model");
+    command->add_option("--light", options.light,
+                        "azimuth,elevation; degrees; default: a scene's own, -50,48 for a model");
     command->add_option("--show", options.show, "the lit scene, or visibility alone")
         ->check(CLI::IsMember({"colour", "visibility"}))
         ->capture_default_str();
