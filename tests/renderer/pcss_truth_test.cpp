@@ -1,0 +1,74 @@
+// Percentage-closer soft shadows on whole scenes against the truth: maps that size themselves are no worse than large ones.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "renderer/comparison.h"
+#include "renderer/gl/context.h"
+#include "renderer/scenes/scenes.h"
+#include "renderer/shadow_renderer.h"
+#include "renderer/techniques/techniques.h"
+#include "renderer/truth/area_light_truth.h"
+
+namespace stairstep {
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 180;
+
+class PcssTruth : public testing::TestWithParam<const char*> {
+  protected:
+    std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
+};
+
+struct Drawn {
+    VisibilityError error;
+    ShadowMapShape shape;
+};
+
+Drawn draw(const AnimatedScene& animated, const SceneState& state, const ShadowSettings& settings,
+           const std::vector<float>& truth) {
+    const GpuScene gpu = upload(animated.scene);
+    const FrameTarget target = make_frame_target(Show::visibility, kWidth, kHeight, 1);
+    ShadowRenderer renderer(technique_named("pcss"), settings, gpu, state, static_cast<double>(kWidth) / kHeight);
+    gl::PassTimer timer;
+    renderer.draw(gpu, state, target, timer);
+    if (std::getenv("STAIRSTEP_DUMP")) {
+        const auto v = read_visibility(target);
+        Image im(kWidth, kHeight * 2, 1);
+        for (size_t i = 0; i < v.size(); ++i) { im.pixels[i] = v[i] * 255; im.pixels[i + v.size()] = truth[i] * 255; }
+        std::FILE* f = std::fopen(settings.fixed_size ? "/tmp/dump_fixed.pgm" : "/tmp/dump_auto.pgm", "wb");
+        std::fprintf(f, "P5 %d %d 255\n", kWidth, kHeight * 2);
+        std::fwrite(im.pixels.data(), 1, im.pixels.size(), f);
+        std::fclose(f);
+    }
+    return {compare_visibility(read_visibility(target), truth), renderer.map().shape};
+}
+
+TEST_P(PcssTruth, AutoIsNoWorseThanALargeFixedMap) {
+    const AnimatedScene animated = scene_named(GetParam());
+    const SceneState state = animated.state(Motion::still, 0);
+    const std::vector<float> truth = area_light_visibility(animated.scene, state, kWidth, kHeight, 256);
+    ShadowSettings settings;
+    settings.radius = animated.radius;
+    settings.largest_size = 4096;
+    const Drawn sized = draw(animated, state, settings, truth);
+    settings.fixed_size = 4096;
+    settings.technique.filter = FilterMode::rotated;
+    const Drawn fixed = draw(animated, state, settings, truth);
+    if (std::getenv("STAIRSTEP_PRINT")) {
+        std::printf("%s: auto %d x %d rmse %.4f penumbra %.4f max %.3f; fixed 4096 rmse %.4f penumbra %.4f max %.3f\n",
+                    GetParam(), sized.shape.width, sized.shape.height, sized.error.rmse, sized.error.penumbra_rmse,
+                    sized.error.max, fixed.error.rmse, fixed.error.penumbra_rmse, fixed.error.max);
+    }
+    EXPECT_GT(sized.error.penumbra_share, 0.02) << "the picture should show penumbras";
+    EXPECT_LE(sized.error.rmse, fixed.error.rmse);
+    EXPECT_LT(sized.shape.texel_count(), fixed.shape.texel_count());
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PcssTruth, testing::Values("cornell", "colonnade"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace stairstep
