@@ -84,12 +84,12 @@ float visibility(Receiver receiver) {
 
     // At contacts a texel's width is what the map can show.
     vec2 radius = max(softness * (receiver.depth - found.y / found.x), 0.5);
-    // A texel of the pixel's own footprint is as fine as the screen can show.
-    float texel = max(min(radius.x * texel_side.x, radius.y * texel_side.y) / law_slope, footprint);
+    float texel = min(radius.x * texel_side.x, radius.y * texel_side.y) / law_slope;
     level = level_within(texel / max(texel_side.x, texel_side.y));
     float blocked = blocked_and_depth(on_level(receiver, level), level, radius / factor_of(level)).x;
     if (blocked < kNothing) return 1;
     if (blocked > 1 - kNothing) return 0;
-    needed_texel = texel;
+    // A texel of the pixel's own footprint is as fine as the screen can show.
+    needed_texel = max(texel, footprint);
     return 1 - blocked;
 }

