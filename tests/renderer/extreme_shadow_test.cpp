@@ -100,14 +100,17 @@ TEST_F(ExtremeShadow, NothingToCastLeavesAllLit) {
 
 /// A sheet that shades all that is seen, and one that shades nothing of it.
 Mesh sheet(float x, float half_side) {
-    return made::polygon({{x - half_side, 3.3f, -half_side}, {x - half_side, 3.3f, half_side},
-                          {x + half_side, 3.3f, half_side}, {x + half_side, 3.3f, -half_side}}, true);
+    return made::polygon({{x - half_side, 3.3f, -half_side},
+                          {x - half_side, 3.3f, half_side},
+                          {x + half_side, 3.3f, half_side},
+                          {x + half_side, 3.3f, -half_side}},
+                         true);
 }
 
 TEST_F(ExtremeShadow, PicturesOfAPixelAreLitOrDark) {
     for (const Case& c : all_cases()) {
         SCOPED_TRACE(described(c));
-        for (const Picture& size : {Picture{1, 1}, Picture{1, 7}, Picture{9, 1}}) {
+        for (const Picture& size : {Picture{1, 1}, Picture{1, 7}, Picture{3, 1}}) {
             const bool shadows = std::string(c.technique) != "none";
             // A texel's width, which filters of soft shadows have at least, reaches beyond a map of one.
             const bool beyond = std::string(c.technique) == "pcss" && c.size == 1;

@@ -91,8 +91,8 @@ std::vector<Case> cases() {
     const Light sun = directional_light({35, 50}, 0.06);
     const Light spot = spot_light({2, 4, 3}, {0, 0.25, 0}, 0.2, 40);
     // A spot's constant radius is a length at the scene's middle, which knows nothing of where movers are.
-    return {{"pcf", 256, sun},   {"pcf", std::nullopt, sun},  {"pcss", 256, sun}, {"pcss", std::nullopt, sun},
-            {"hard", 256, spot}, {"pcss", std::nullopt, spot}};
+    return {{"pcf", 256, sun},           {"pcf", std::nullopt, sun}, {"pcss", 256, sun},
+            {"pcss", std::nullopt, sun}, {"hard", 256, spot},        {"pcss", std::nullopt, spot}};
 }
 
 void expect_same(const glm::dmat4& world_from_mover, int most_differing) {
@@ -104,8 +104,8 @@ void expect_same(const glm::dmat4& world_from_mover, int most_differing) {
         settings.fixed_size = c.size;
         settings.largest_size = 1024;
         settings.radius = 0.08;
-        SceneState state{camera_looking_at({1.5, 3, 3.5}, {0, 0.25, 0}, 40, 0.5, 30), c.light,
-                         {glm::dmat4(0), world_from_mover}};
+        SceneState state{
+            camera_looking_at({1.5, 3, 3.5}, {0, 0.25, 0}, 40, 0.5, 30), c.light, {glm::dmat4(0), world_from_mover}};
         const Pictures moving = draw(scenes.moving, state, c.technique, settings);
         const Pictures by_hand = draw(scenes.by_hand, state, c.technique, settings);
         EXPECT_LE(differing(moving.depth, by_hand.depth, 1e-6), most_differing);

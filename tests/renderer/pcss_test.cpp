@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "renderer/gl/context.h"
 #include "tests/renderer/made_edges.h"
@@ -90,13 +88,6 @@ RampErrors ramp_errors(const made::StraightEdge& edge, const std::vector<float>&
     return errors;
 }
 
-void print(const char* what, const made::StraightEdge& edge, const RampErrors& e) {
-    if (!std::getenv("STAIRSTEP_PRINT")) return;
-    std::printf("%-12s %s angle %5.1f: n %d worst %.4f rmse %.4f mean %.4f | lit %d (%d below 1) umbra %d (max %g)\n", what,
-                edge.light.kind == Light::Kind::spot ? "spot" : "dir ", edge.angle_deg, e.penumbra, e.worst, e.rmse,
-                e.mean, e.lit, e.lit_below_1, e.umbra, e.brightest_umbra);
-}
-
 class Pcss : public testing::TestWithParam<Light::Kind> {
   protected:
     std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
@@ -105,7 +96,6 @@ class Pcss : public testing::TestWithParam<Light::Kind> {
 constexpr double kAngles[] = {0, 17, 45, 90, 133, 200, 270, 333};
 
 void expect_ramp(const char* what, const made::StraightEdge& edge, const RampErrors& e, double tolerance) {
-    print(what, edge, e);
     SCOPED_TRACE(testing::Message() << what << ", angle " << edge.angle_deg);
     ASSERT_GT(e.penumbra, 10000) << "the picture should show the penumbra";
     EXPECT_LE(e.worst, tolerance);
@@ -118,8 +108,9 @@ TEST_P(Pcss, LevelsAreTheRampButForHalfATexel) {
     constexpr double kRounding = 2e-3;
     for (const double angle : kAngles) {
         const made::StraightEdge edge = made::straight_edge(GetParam(), angle);
-        // The half-width is some 40 of the map's texels for a spot, 75 for a directional light.
-        for (const double law_slope : {kLawSlope, 12.0, 30.0}) {
+        // The half-width is some 40 of the map's texels for a spot, 75 for a directional light; levels are up to 1.5 times
+        // as fine as they must.
+        for (const double law_slope : {kLawSlope, 20.0}) {
             const RampErrors e = ramp_errors(edge, draw_edge(edge, pcss_settings(FilterMode::exact, law_slope), 1500));
             expect_ramp("levels", edge, e, 1 / (4 * law_slope) + kRounding);
         }
@@ -151,8 +142,8 @@ TEST_P(Pcss, TheHalfWidthIsTheLights) {
 // Taps find the ramp but for noise. Searches by few taps miss blockers at the penumbra's lit rim, so these take many.
 TEST_P(Pcss, TapsAreWithoutBias) {
     // Pictures that show all of the penumbra's width, so that a disk's and a box's ramps have the same mean.
-    const std::vector<double> angles = GetParam() == Light::Kind::spot ? std::vector<double>{17, 90, 270}
-                                                                      : std::vector<double>{17, 90, 200, 333};
+    const std::vector<double> angles =
+        GetParam() == Light::Kind::spot ? std::vector<double>{17, 270} : std::vector<double>{17, 90, 200};
     for (const double angle : angles) {
         const made::StraightEdge edge = made::straight_edge(GetParam(), angle);
         for (const FilterMode mode :
@@ -161,7 +152,6 @@ TEST_P(Pcss, TapsAreWithoutBias) {
             ShadowSettings settings = pcss_settings(mode);
             settings.technique.search_taps = 256;
             const RampErrors e = ramp_errors(edge, draw_edge(edge, settings, 1500));
-            print(std::string(name(mode)).c_str(), edge, e);
             // Poisson taps that aren't turned have a middle of their own.
             EXPECT_LE(std::abs(e.mean), mode == FilterMode::poisson ? 0.02 : 0.004);
             EXPECT_LE(e.rmse, 0.1);

@@ -39,9 +39,9 @@ std::vector<glm::dvec3> corners_by_brute_force(const std::vector<glm::dvec4>& pl
     for (size_t i = 0; i < planes.size(); ++i) {
         for (size_t j = 0; j < i; ++j) {
             for (size_t k = 0; k < j; ++k) {
-                const glm::dmat3 normals = glm::transpose(glm::dmat3(
-                    glm::normalize(glm::dvec3(planes[i])), glm::normalize(glm::dvec3(planes[j])),
-                    glm::normalize(glm::dvec3(planes[k]))));
+                const glm::dmat3 normals = glm::transpose(glm::dmat3(glm::normalize(glm::dvec3(planes[i])),
+                                                                     glm::normalize(glm::dvec3(planes[j])),
+                                                                     glm::normalize(glm::dvec3(planes[k]))));
                 if (std::abs(glm::determinant(normals)) < 1e-4) continue;
                 const glm::dvec3 at(-side_of(planes[i], {}), -side_of(planes[j], {}), -side_of(planes[k], {}));
                 const glm::dvec3 corner = glm::inverse(normals) * at;
@@ -150,8 +150,8 @@ TEST(CutCorners, ShortNormalsCutLikeLongOnes) {
 RC_GTEST_PROP(ViewPlanes, AgreeWithClipSpace, ()) {
     Random random(*rc::gen::arbitrary<uint64_t>());
     const auto place = [&] { return 3.0 * glm::dvec3(random.normal(), random.normal(), random.normal()); };
-    const Camera camera =
-        camera_looking_at(place(), place(), 20 + 80 * random.uniform(), 0.3 + random.uniform(), 4 + 9 * random.uniform());
+    const Camera camera = camera_looking_at(place(), place(), 20 + 80 * random.uniform(), 0.3 + random.uniform(),
+                                            4 + 9 * random.uniform());
     const double aspect = 0.5 + 2 * random.uniform();
     const glm::dmat4 clip(clip_from_world(camera, aspect));
     const std::vector<glm::dvec4> planes = view_planes(camera, aspect);

@@ -58,8 +58,10 @@ TEST_F(Renderer, PcssTakesTheTexelThatThePixelsNeed) {
         double height, eye_height;
     };
     // The last two are limited by the picture.
-    for (const auto& [height, eye] : std::vector<Case>{{3, 1}, {2, 0.9}, {1.3, 1.2}, {0.5, 0.4}, {0.1, 0.09}, {1.3, 0.2}}) {
-        for (const auto kind : {NeedStatistic::Kind::extreme, NeedStatistic::Kind::percentile, NeedStatistic::Kind::tiles}) {
+    for (const auto& [height, eye] :
+         std::vector<Case>{{3, 1}, {2, 0.9}, {1.3, 1.2}, {0.5, 0.4}, {0.1, 0.09}, {1.3, 0.2}}) {
+        for (const auto kind :
+             {NeedStatistic::Kind::extreme, NeedStatistic::Kind::percentile, NeedStatistic::Kind::tiles}) {
             SCOPED_TRACE(testing::Message() << "height " << height << ", eye " << eye);
             ShadowSettings settings = auto_settings();
             settings.statistic.kind = kind;
@@ -198,9 +200,12 @@ TEST_F(Renderer, NothingOfALargerMapShowsInASmallerOne) {
         FilterMode filter;
         double radius;
     };
-    for (const Case& c : {Case{"hard", FilterMode::automatic, 0.1}, {"pcf", FilterMode::exact, 0.1},
-                          {"pcf", FilterMode::rotated, 0.3}, {"pcf", FilterMode::jittered, 0.3},
-                          {"pcss", FilterMode::exact, 0.1}, {"pcss", FilterMode::rotated, 0.1}}) {
+    for (const Case& c : {Case{"hard", FilterMode::automatic, 0.1},
+                          {"pcf", FilterMode::exact, 0.1},
+                          {"pcf", FilterMode::rotated, 0.3},
+                          {"pcf", FilterMode::jittered, 0.3},
+                          {"pcss", FilterMode::exact, 0.1},
+                          {"pcss", FilterMode::rotated, 0.1}}) {
         for (const glm::ivec2 small : {glm::ivec2(90, 61), glm::ivec2(33, 128), glm::ivec2(1, 1)}) {
             SCOPED_TRACE(testing::Message() << c.technique << " " << name(c.filter) << " " << small.x);
             ShadowSettings settings = auto_settings(c.radius);

@@ -183,7 +183,8 @@ TEST_F(SpotShadow, CastersNearerThanTheNearestDepthCast) {
         Mesh low = caster_at(0.001);
         for (Vertex& vertex : low.vertices) vertex.position.x += 8;
         const Scene scene = made::scene_of({near, low, made::ground(0, 9)});
-        for (const ShadowMapShape& shape : {shape_over(light, 0.004, 200, 200), map_of_size(made::fitted(scene, light), 700)}) {
+        for (const ShadowMapShape& shape :
+             {shape_over(light, 0.004, 200, 200), map_of_size(made::fitted(scene, light), 700)}) {
             for (const std::string technique : {"hard", "pcf"}) {
                 const std::vector<float> drawn = draw(scene, light, technique, 1e-4, shape);
                 int wrong = 0;
