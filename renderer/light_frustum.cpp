@@ -87,6 +87,14 @@ glm::dvec2 axis_of_smallest(const Points& casters, const Points& receivers, doub
     return best;
 }
 
+/// The casters' diagonal, or what rounding can tell of them where they all lie in one point; above 0.
+double extent_of(const Bounds& casters) {
+    if (casters.empty()) return 1;
+    const double size = glm::length(glm::max(glm::abs(casters.low), glm::abs(casters.high)));
+    const double extent = std::max(casters.diagonal(), 1e-6 * size);
+    return extent > 0 ? extent : 1;
+}
+
 /// Depths along the light between which the casters lie, clear of both ends, also when all lie in one plane across the
 /// light: rounding must not clip the first, nor make the last as deep as an empty texel.
 void set_depths(LightFrustum& frustum, const Bounds& casters, double clearance) {
@@ -158,7 +166,7 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
             caster_points.emplace_back(point);
         }
     }
-    const double diagonal = casters.empty() ? 1 : casters.diagonal();
+    const double diagonal = extent_of(casters);
     set_depths(frustum, casters, 1e-3 * diagonal);
     const double depth_range = frustum.farthest - frustum.nearest;
     frustum.softness = spot ? light.half_side * depth_range / (frustum.nearest * frustum.farthest)
