@@ -13,7 +13,7 @@
 
 namespace stairstep {
 
-/// Most levels: factors up to 6144. The shader's array is as long.
+/// Most levels: factors up to 4096. The shader's array is as long.
 inline constexpr int kMostLevels = 24;
 
 /// Factor of level i ≥ 0.
