@@ -15,8 +15,12 @@ uniform int level_count;
 uniform vec2 softness;
 // c: half-width in texels of the narrowest filter that hides its texels.
 uniform float law_slope;
-// Half-width of the search, in texels of its level, at most.
+// Half-width of the search, in texels of its level, at most; half a texel more is looked at.
 uniform float search_radius;
+
+// A share of a box that is rounding's.
+const float kNothing = 1e-5;
+
 float factor_of(int level) { return level == 0 ? 1 : (level % 2 == 1 ? 1.0 : 1.5) * exp2(float((level + 1) / 2)); }
 
 // The last level whose factor is at most this.
@@ -43,14 +47,14 @@ Receiver on_level(Receiver receiver, int level) {
 // the sum of its depths, each by its share.
 vec2 blocked_and_depth(Receiver receiver, int level, vec2 radius) {
     vec4 place = level_place[level];
-    // Beyond the map nothing blocks; a box may be far larger than the map.
-    vec2 low = clamp(receiver.texel - radius, vec2(0), place.zw);
-    vec2 high = clamp(receiver.texel + radius, vec2(0), place.zw);
-    vec2 first = floor(low);
-    // Counted from the first texel: small numbers keep their precision.
+    // Counted from the first texel, and as wide as it is: small numbers keep their precision.
+    vec2 low = receiver.texel - radius;
+    vec2 first = clamp(floor(low), vec2(0), place.zw);
     vec2 begin = low - first;
-    vec2 end = high - first;
-    ivec2 gathers = ivec2(ceil(end / 2 - 1e-4));
+    // Beyond the map nothing blocks; a box may be far larger than the map.
+    vec2 end = clamp(begin + 2 * radius, vec2(0), place.zw - first);
+    begin = max(begin, vec2(0));
+    ivec2 gathers = ivec2(ceil(end / 2 - 1e-6));
     // The first four texels share a corner at first + 1; textureGather returns them from the upper left clockwise.
     vec2 corner = first + 1;
     vec4 corner_depth = plane_depth(receiver, corner.x + vec4(-0.5, 0.5, 0.5, -0.5),
@@ -74,15 +78,18 @@ float visibility(Receiver receiver) {
     // Casters lie beyond depth 0: none further off to the side can be in the way.
     vec2 search = max(softness * receiver.depth, 0.5);
     int level = level_beyond(max(search.x, search.y) / search_radius);
-    vec2 found = blocked_and_depth(on_level(receiver, level), level, search / factor_of(level));
-    if (found.x < 1e-5) return 1;
+    // A texel's centre may lie up to half a texel beyond what it stands for.
+    vec2 found = blocked_and_depth(on_level(receiver, level), level, search / factor_of(level) + 0.5);
+    if (found.x < kNothing) return 1;
 
     // At contacts a texel's width is what the map can show.
     vec2 radius = max(softness * (receiver.depth - found.y / found.x), 0.5);
-    // A texel of the pixel's own footprint is as fine as the screen can show.
-    float texel = max(min(radius.x * texel_side.x, radius.y * texel_side.y) / law_slope, footprint);
+    float texel = min(radius.x * texel_side.x, radius.y * texel_side.y) / law_slope;
     level = level_within(texel / max(texel_side.x, texel_side.y));
     float blocked = blocked_and_depth(on_level(receiver, level), level, radius / factor_of(level)).x;
-    if (blocked > 0 && blocked < 1) needed_texel = texel;
-    return clamp(1 - blocked, 0, 1);
+    if (blocked < kNothing) return 1;
+    if (blocked > 1 - kNothing) return 0;
+    // A texel of the pixel's own footprint is as fine as the screen can show.
+    needed_texel = max(texel, footprint);
+    return 1 - blocked;
 }

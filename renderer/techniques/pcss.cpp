@@ -10,8 +10,9 @@
 namespace stairstep {
 namespace {
 
-/// Blocker searches are this far at most, in texels of the level they are done on: 4 × 4 gathers.
-constexpr double kSearchRadius = 3.5;
+/// Blocker searches are this far at most, in texels of the level they are done on; with the half texel more that they look
+/// at: 4 × 4 gathers.
+constexpr double kSearchRadius = 3;
 
 void set_softness(const gl::Program& program, const ShadowMap& map) {
     gl::set_uniform(program, "softness", glm::vec2(map.shape.frustum.softness / map.shape.texel()));
@@ -68,7 +69,7 @@ class PcssLevels final : public ShadowTechnique {
     Lookups lookups(const ShadowMap&) const override {
         // Levels are a factor of 2 apart at most.
         const auto side = [](double radius) { return static_cast<int>(std::ceil((2 * radius + 1) / 2)); };
-        return {side(kSearchRadius) * side(kSearchRadius), side(2 * slope_) * side(2 * slope_), true};
+        return {side(kSearchRadius + 0.5) * side(kSearchRadius + 0.5), side(2 * slope_) * side(2 * slope_), true};
     }
 
   private:
