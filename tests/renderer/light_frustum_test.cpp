@@ -83,7 +83,11 @@ TEST(LightFrustum, AFlatCasterHasDepth) {
 }
 
 TEST(LightFrustum, NothingToCastIsNoError) {
-    for (const Scene& scene : {made::scene_of({}), made::scene_of({made::ground(0, 5)})}) {
+    // All corners in one point are hardly more than nothing.
+    const Mesh point = made::polygon({{3, 1, 2}, {3, 1, 2}, {3, 1, 2}}, true);
+    const Mesh origin = made::polygon({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, true);
+    for (const Scene& scene : {made::scene_of({}), made::scene_of({made::ground(0, 5)}), made::scene_of({point}),
+                               made::scene_of({origin})}) {
         const LightFrustum frustum = made::fitted(scene, Direction{30, 45});
         EXPECT_GT(frustum.extent().x, 0);
         EXPECT_GT(frustum.extent().y, 0);

@@ -130,7 +130,8 @@ TEST_F(Meter, OnePixelStandsForAllPlacesInATile) {
     fill_need(target, needs);
     meter.measure(target);
     std::map<float, int> turns;
-    for (const float place : meter.take()->one_pixel) ++turns[place];
+    const std::optional<TileNeeds> taken = meter.take();
+    for (const float place : taken.value().one_pixel) ++turns[place];
     EXPECT_GE(turns.size(), 32u);
     for (const auto& [place, count] : turns) EXPECT_LE(count, 4 * kSide * kSide / 64 / 64) << place;
 }

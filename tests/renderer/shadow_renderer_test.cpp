@@ -17,6 +17,7 @@ constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
 constexpr double kHalfTangent = 0.1;
+constexpr double kSpotHeight = 5;
 
 class Renderer : public testing::Test {
   protected:
@@ -31,11 +32,16 @@ Scene sheet_scene() {
     return made::scene_of({sheet, made::ground(0, 9)});
 }
 
-SceneState sheet_state(double height, double eye_height) {
+Light light_above(Light::Kind kind) {
+    if (kind == Light::Kind::directional) return directional_light({0, 90}, kHalfTangent);
+    return {Light::Kind::spot, basis_towards({0, 90}), {0, kSpotHeight, 0}, kHalfTangent * kSpotHeight, 1, 60};
+}
+
+SceneState sheet_state(double height, double eye_height, Light::Kind kind = Light::Kind::directional) {
     glm::dmat4 lifted(1);
     lifted[3].y = height;
     // Below the sheet.
-    return {made::camera_down({0, eye_height, 0}), directional_light({0, 90}, kHalfTangent), {lifted}};
+    return {made::camera_down({0, eye_height, 0}), light_above(kind), {lifted}};
 }
 
 ShadowSettings auto_settings(double radius = 0.1) {
@@ -45,9 +51,12 @@ ShadowSettings auto_settings(double radius = 0.1) {
     return settings;
 }
 
-/// The law's texel for the sheet at this height, no smaller than a pixel.
-double needed(double height, double eye_height, double slope) {
-    return std::max(kHalfTangent * height / slope, pixel_footprint(made::camera_down({}), eye_height, kHeight));
+/// The law's texel for the sheet at this height, no smaller than a pixel, in the light plane.
+double needed(double height, double eye_height, double slope, Light::Kind kind = Light::Kind::directional) {
+    const double pixel = pixel_footprint(made::camera_down({}), eye_height, kHeight);
+    if (kind == Light::Kind::directional) return std::max(kHalfTangent * height / slope, pixel);
+    const double radius = kHalfTangent * kSpotHeight * (1 / (kSpotHeight - height) - 1 / kSpotHeight);
+    return std::max(radius / slope, pixel / kSpotHeight);
 }
 
 // Light, sheet and ground are square to each other: every pixel of the penumbra needs the same.
@@ -60,19 +69,21 @@ TEST_F(Renderer, PcssTakesTheTexelThatThePixelsNeed) {
     // The last two are limited by the picture.
     for (const auto& [height, eye] :
          std::vector<Case>{{3, 1}, {2, 0.9}, {1.3, 1.2}, {0.5, 0.4}, {0.1, 0.09}, {1.3, 0.2}}) {
-        for (const auto kind :
+        for (const NeedStatistic::Kind kind :
              {NeedStatistic::Kind::extreme, NeedStatistic::Kind::percentile, NeedStatistic::Kind::tiles}) {
-            SCOPED_TRACE(testing::Message() << "height " << height << ", eye " << eye);
-            ShadowSettings settings = auto_settings();
-            settings.statistic.kind = kind;
-            const SceneState state = sheet_state(height, eye);
-            ShadowRenderer renderer(technique_named("pcss"), settings, gpu, state, kAspect);
-            renderer.draw(gpu, state, target, *timer_);
-            const double wanted = needed(height, eye, settings.technique.law_slope);
-            const glm::dvec2 texel = renderer.map().shape.texel();
-            EXPECT_EQ(texel.x, texel.y);
-            EXPECT_LE(texel.x, wanted * (1 + 1e-5));
-            EXPECT_GT(texel.x, wanted * 8 / 9 * (1 - 1e-5));
+            for (const Light::Kind light : {Light::Kind::directional, Light::Kind::spot}) {
+                SCOPED_TRACE(testing::Message() << "height " << height << ", eye " << eye);
+                ShadowSettings settings = auto_settings();
+                settings.statistic.kind = kind;
+                const SceneState state = sheet_state(height, eye, light);
+                ShadowRenderer renderer(technique_named("pcss"), settings, gpu, state, kAspect);
+                renderer.draw(gpu, state, target, *timer_);
+                const double wanted = needed(height, eye, settings.technique.law_slope, light);
+                const glm::dvec2 texel = renderer.map().shape.texel();
+                EXPECT_EQ(texel.x, texel.y);
+                EXPECT_LE(texel.x, wanted * (1 + 1e-5));
+                EXPECT_GT(texel.x, wanted * 8 / 9 * (1 - 1e-5));
+            }
         }
     }
 }
