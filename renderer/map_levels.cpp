@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kGuards = 2 * kGuardTexels;
 constexpr int kCoarsest = 4;
+/// Finding the ranges of more takes as long as they save.
+constexpr size_t kMostTexelsForRanges = size_t{2} << 20;
 
 int divided_up(int a, int b) {
     return (a + b - 1) / b;
@@ -71,6 +73,8 @@ void MapLevels::fill(const ShadowMap& map) {
         gl::set_uniform(program_, "factor", place.factor);
         gl::DrawArrays(GL_TRIANGLES, 0, 3);
     }
+    has_ranges_ = map.shape.texel_count() <= kMostTexelsForRanges;
+    if (!has_ranges_) return;
     glm::ivec2 used(0);
     for (const LevelPlace& place : places_) {
         used = glm::max(used, glm::ivec2(place.x + place.width, place.y + place.height) + kGuardTexels);
@@ -85,6 +89,7 @@ void MapLevels::bind(const gl::Program& program) const {
     gl::set_uniform(program, "level_count", static_cast<int>(places.size()));
     gl::set_uniform(program, "levels_scale", glm::vec2(1) / glm::vec2(size_));
     gl::BindTextureUnit(2, texture_.id());
+    gl::set_uniform(program, "with_ranges", has_ranges_ ? 1 : 0);
     ranges_.bind(program);
 }
 

@@ -42,7 +42,7 @@ class MapLevels {
   public:
     explicit MapLevels(int capacity);
 
-    /// Fills the levels from the map, and finds the ranges of their depths.
+    /// Fills the levels from the map, and finds the ranges of their depths where there are few enough.
     void fill(const ShadowMap& map);
 
     const std::vector<LevelPlace>& places() const { return places_; }
@@ -58,6 +58,7 @@ class MapLevels {
     gl::Texture texture_;
     gl::Framebuffer framebuffer_;
     DepthRanges ranges_;
+    bool has_ranges_ = false;
     std::vector<LevelPlace> places_;
 };
 

@@ -10,6 +10,8 @@ uniform vec2 levels_scale;  // 1 / size of the texture
 // Where a level's texel (0, 0) lies, and its size.
 uniform vec4 level_place[24];
 uniform int level_count;
+// Whether ranges are there.
+uniform int with_ranges;
 
 // Half-width of a penumbra's filter, texels, for each unit between the stored depths of receiver and caster.
 uniform vec2 softness;
@@ -57,7 +59,7 @@ vec2 blocked_and_depth(Receiver receiver, int level, vec2 radius) {
     ivec2 gathers = ivec2(ceil(end / 2 - 1e-6));
 
     // All lit: nothing to add up. A loop that isn't entered costs nothing, where a branch around one may be flattened.
-    bool in_window = max(gathers.x, gathers.y) <= 4;
+    bool in_window = with_ranges != 0 && max(gathers.x, gathers.y) <= 4;
     vec2 range = range_from(place.xy + first);
     if (in_window && all_alike(receiver, first + vec2(gathers), vec2(gathers), range) > 0) gathers = ivec2(0);
 

@@ -19,8 +19,8 @@ float visibility(Receiver receiver);
 // The texel, in the light plane, that this pixel needs: written beside its colour by techniques that size their map by
 // what pixels need. As it is, none.
 float needed_texel = 1e30;
-// Side of the texel, in the light plane, that would cover as much of this pixel's surface as the pixel does, if the surface
-// faced the light. On one that doesn't, texels are stretched by as much as its light is weaker.
+// Side of the texel, in the light plane, of which two would cover this pixel's surface if that faced the light: the finest
+// that is of use. On a surface that doesn't, texels are stretched by as much as its light is weaker.
 float footprint = 0;
 
 // The map lies in its texture with guard texels around it, which are empty.
@@ -90,7 +90,7 @@ float light_at(vec3 world, vec3 facet, vec3 to_light) {
     vec2 across = dFdx(receiver.texel) * texel_side;
     vec2 up = dFdy(receiver.texel) * texel_side;
     float facing = dot(facet, to_light);
-    footprint = sqrt(abs(across.x * up.y - across.y * up.x) / max(facing, 0.05));
+    footprint = sqrt(abs(across.x * up.y - across.y * up.x) / max(facing, 0.05) / 2);
     if (facing <= 0 || in_cone(to_light) <= 0) return 0;
     return visibility(receiver);
 }
