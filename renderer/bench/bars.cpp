@@ -11,7 +11,11 @@ std::string against(double value, double other, int decimals) {
 
 void add_wobble(std::vector<Bar>& bars, const std::string& what, const Measurement& sized, const Measurement& fixed) {
     if (!sized.wobble || !fixed.wobble) return;
-    bars.push_back({what, *sized.wobble <= *fixed.wobble, "wobble " + against(*sized.wobble, *fixed.wobble, 5)});
+    const std::string figures = "wobble " + against(sized.wobble->mean(), fixed.wobble->mean(), 5) + " (light " +
+                                against(sized.wobble->light, fixed.wobble->light, 5) + ", caster " +
+                                against(sized.wobble->caster, fixed.wobble->caster, 5) + ", camera " +
+                                against(sized.wobble->camera, fixed.wobble->camera, 5) + ")";
+    bars.push_back({what, sized.wobble->mean() <= fixed.wobble->mean(), figures});
 }
 
 }  // namespace

@@ -151,8 +151,6 @@ class Truths {
         return made_[kind] = truth_.visibility(kind, state_);
     }
 
-    const std::map<TruthKind, std::vector<float>>& made() const { return made_; }
-
   private:
     SceneTruth& truth_;
     const SceneState& state_;
@@ -169,22 +167,18 @@ std::vector<Picture> write_pictures(const BenchJob& job, const Entry& entry, con
         write_png(job.out / file, image);
         pictures.push_back({file, caption});
     };
-    std::set<TruthKind> shown_truths;
+    // In rows of three: what it should be, what it is, how they differ.
     for (const Shown& shown : shown_configurations()) {
         const Measurement* one = find(scene.measurements, shown.configuration);
         if (!one) continue;
         const TruthKind kind = truth_of(shown.configuration);
         const Image truth = visibility_picture(truths.of(kind), width, height);
-        if (shown_truths.insert(kind).second) {
-            write(truth_file(entry, kind), truth,
-                  "Truth, " + std::string(name(kind)) + ": " + describe(kind, job.truth));
-            // Beside each truth, what comes closest to it by the law or by common practice follows in pairs.
-        }
+        write(truth_file(entry, kind), truth, "truth, " + std::string(name(kind)) + ": " + describe(kind, job.truth));
         const Image picture = visibility_picture(one->visibility, width, height);
         write(picture_file(entry, shown), picture,
               label(shown.configuration) + ", " + format_fixed(one->frame.cpu_ms, 1) + " ms");
         write(difference_file(entry, shown), difference_picture(picture, truth, kDifferenceScale),
-              label(shown.configuration) + ": difference from the truth, times " + std::to_string(kDifferenceScale));
+              label(shown.configuration) + ": difference, times " + std::to_string(kDifferenceScale));
     }
     return pictures;
 }
@@ -221,7 +215,7 @@ BenchJob quick_job() {
     job.scenes = {"crane", "clutter", "truck"};
     job.configurations = quick_configurations();
     job.measurement.frames = 5;
-    job.truth.light_samples = 64;
+    job.truth.light_samples = 256;
     job.truth.filter_side = 4096;
     job.truth.filter_taps = 400;
     job.wobble->steps = 2;

@@ -49,14 +49,14 @@ std::string table_row(const Measurement& one) {
     cell(format_fixed(one.error.penumbra_rmse, 4));
     cell(format_fixed(one.error.max, 3));
     cell(format_fixed(100 * one.error.share_over_8_levels, 1));
-    cell(one.wobble ? format_fixed(*one.wobble, 5) : "");
+    cell(one.wobble ? format_fixed(one.wobble->mean(), 5) : "");
     return html + "</tr>\n";
 }
 
 std::string table(const std::vector<Measurement>& measurements) {
     std::string html = "<table>\n<thead><tr>";
     for (const char* head : {"configuration", "map", "lookups", "frame ms", "depth", "prepare", "lighting", "need", "×",
-                             "error", "penumbra", "max", "> 8 levels %", "wobble"}) {
+                             "error", "penumbra", "max", "> 8/255 %", "wobble"}) {
         html += "<th>" + escaped(head) + "</th>";
     }
     html += "</tr></thead>\n<tbody>\n";

@@ -12,7 +12,7 @@ namespace stairstep::bench {
 namespace {
 
 constexpr int kWidth = 1020;
-constexpr int kHeight = 460;
+constexpr int kHeight = 480;
 /// A logarithm needs something to show for an error of none.
 constexpr double kLeastError = 1e-5;
 
@@ -115,11 +115,11 @@ std::string frontier_figure(const std::vector<Measurement>& measurements) {
                                    panel(measurements, false, "against the filter, converged")};
     std::string script =
         "set termoption noenhanced\nset multiplot\nset logscale xy\nset grid xtics ytics mytics\n"
-        "set format y '%g'\nset format x '%g'\nset xlabel 'frame, ms' offset 0,0.3\n"
+        "set format y '%g'\nset format x '%g'\nset xlabel 'frame, ms' offset 0,0.2\n"
         "set ylabel 'root-mean-square error of visibility' offset 0.5,0\nset xtics add "
         "(2,3,5,20,30,50,200,300,500,2000,3000)\n"
-        "set tmargin at screen 0.93\nset bmargin at screen 0.3\n"
-        "set key at graph 0.5,-0.19 center top horizontal maxcols 4 samplen 1 font ',12'\n";
+        "set tmargin at screen 0.92\nset bmargin at screen 0.29\n"
+        "set key at graph 0.5,-0.24 center top horizontal maxcols 4 samplen 1 font ',12'\n";
     for (int i = 0; i < 2; ++i) {
         if (!panels[static_cast<size_t>(i)].empty()) script += place(i) + panels[static_cast<size_t>(i)];
     }

@@ -29,6 +29,7 @@ struct MeasurementSettings {
     int largest_size = 8192;
     /// Of shadow maps at once, unless one configuration needs more.
     double most_map_bytes = 2.0 * 1024 * 1024 * 1024;
+    TexelPatience patience;
 };
 
 /// A scene on the GPU, in the state that is measured.
@@ -43,6 +44,15 @@ struct Subject {
 struct MedianTime {
     double cpu_ms = 0;
     double gpu_ms = 0;
+};
+
+/// |ΔV − ΔV_true| (comparison.h) over a scene's motions; see wobble.h.
+struct MotionWobble {
+    double light = 0;
+    double caster = 0;
+    double camera = 0;
+
+    double mean() const { return (light + caster + camera) / 3; }
 };
 
 struct Measurement {
@@ -69,8 +79,8 @@ struct Measurement {
     /// Visibility, kept of the configurations whose pictures are shown.
     std::vector<float> visibility;
 
-    /// |ΔV − ΔV_true| over the motions (wobble.h), where it was measured.
-    std::optional<double> wobble;
+    /// Where it was measured.
+    std::optional<MotionWobble> wobble;
     /// Of those with the same family of truths: area lights, and filters.
     bool on_frontier = false;
     /// What dominates it, by its place among the scene's measurements.
@@ -90,7 +100,7 @@ std::vector<Measurement> measure(const std::vector<Configuration>& list, const M
                                  const std::function<const std::vector<float>&(TruthKind)>& truth, Notes& notes,
                                  const std::function<void()>& advance);
 
-/// A renderer for one configuration whose map has the size at which it settles. `first` is the first state drawn.
+/// A renderer for one configuration whose map has the size at which it settles.
 ShadowRenderer settled_renderer(const Configuration& configuration, const MeasurementSettings& settings,
                                 const Subject& subject, const FrameTarget& target);
 

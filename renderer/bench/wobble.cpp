@@ -2,8 +2,9 @@
 
 namespace stairstep::bench {
 
-double wobble_of(const Configuration& configuration, const MeasurementSettings& settings, const WobbleSettings& wobble,
-                 const AnimatedScene& animated, const GpuScene& scene, double radius, SceneTruth& truth) {
+MotionWobble wobble_of(const Configuration& configuration, const MeasurementSettings& settings,
+                       const WobbleSettings& wobble, const AnimatedScene& animated, const GpuScene& scene,
+                       double radius, SceneTruth& truth) {
     MeasurementSettings small = settings;
     small.width = wobble.width;
     small.height = wobble.height;
@@ -11,8 +12,7 @@ double wobble_of(const Configuration& configuration, const MeasurementSettings& 
     const SceneState start = animated.state(Motion::still, 0);
     const TruthKind kind = truth_of(configuration);
     gl::PassTimer timer;
-    double sum = 0;
-    for (const Motion motion : {Motion::light, Motion::caster, Motion::camera}) {
+    const auto over = [&](Motion motion) {
         ShadowRenderer renderer = settled_renderer(configuration, small, {scene, start, radius}, target);
         Wobble moving;
         for (int i = 0; i <= wobble.steps; ++i) {
@@ -20,9 +20,9 @@ double wobble_of(const Configuration& configuration, const MeasurementSettings& 
             renderer.draw(scene, state, target, timer);
             moving.add(read_visibility(target), truth.visibility(kind, state));
         }
-        sum += moving.mean();
-    }
-    return sum / 3;
+        return moving.mean();
+    };
+    return {over(Motion::light), over(Motion::caster), over(Motion::camera)};
 }
 
 }  // namespace stairstep::bench

@@ -19,9 +19,10 @@ struct WobbleSettings {
 
 inline constexpr double kWobbleStep = 1.0 / 200;
 
-/// The mean over the motions of light, caster and camera of Wobble's (comparison.h), of visibility. The map settles before
-/// each motion and then follows it, a frame a step. Throws FailureError.
-double wobble_of(const Configuration& configuration, const MeasurementSettings& settings, const WobbleSettings& wobble,
-                 const AnimatedScene& animated, const GpuScene& scene, double radius, SceneTruth& truth);
+/// Wobble's mean (comparison.h), of visibility, over each motion. The map settles before it and then follows it, a frame a
+/// step. Throws FailureError.
+MotionWobble wobble_of(const Configuration& configuration, const MeasurementSettings& settings,
+                       const WobbleSettings& wobble, const AnimatedScene& animated, const GpuScene& scene,
+                       double radius, SceneTruth& truth);
 
 }  // namespace stairstep::bench

@@ -56,10 +56,10 @@ bench::BenchJob job_of(const Options& options) {
     job.measurement.largest_size = options.largest_size;
     job.truth.cache = options.cache.empty() ? default_cache_folder() : std::filesystem::path(options.cache);
     job.truth.jobs = options.jobs;
-    // Differences between frames average over so many pixels that fewer samples do.
+    // Many frames of small pictures: means over them need fewer samples of each.
     job.wobble->truth = job.truth;
-    job.wobble->truth.light_samples = std::min(job.truth.light_samples, 256);
-    job.wobble->truth.filter_taps = std::min(job.truth.filter_taps, 1024);
+    job.wobble->truth.light_samples = 256;
+    job.wobble->truth.filter_taps = 1024;
     if (options.no_wobble) job.wobble.reset();
     job.law = options.law;
     job.convert_kernel = options.convert_kernel;
@@ -84,7 +84,7 @@ void add_bench_command(CLI::App& app) {
         ->check(CLI::Range(1, 10000));
     command
         ->add_option("--samples", options->samples,
-                     "rays a pixel of the area light's truth, a square number; default: 1024, quick: 64")
+                     "rays a pixel of the area light's truth, a square number; default: 1024, quick: 256")
         ->check(CLI::Range(1, 65536));
     command->add_flag("--no-wobble", options->no_wobble, "leave out what moves between frames");
     command->add_option("--wobble-size", options->wobble_size, "of its pictures, px; default: 320x180, quick: 160x90");
