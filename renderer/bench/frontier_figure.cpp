@@ -109,14 +109,15 @@ std::string panel(const std::vector<Measurement>& measurements, bool soft, const
 std::string frontier_figure(const std::vector<Measurement>& measurements) {
     const auto place = [](int column) {
         const auto x = [&](double px) { return format_fixed((column * kWidth / 2.0 + px) / kWidth, 5); };
-        return "set lmargin at screen " + x(68) + "\nset rmargin at screen " + x(kWidth / 2.0 - 14) + "\n";
+        return "set lmargin at screen " + x(76) + "\nset rmargin at screen " + x(kWidth / 2.0 - 14) + "\n";
     };
     const auto panels = std::array{panel(measurements, true, "against the area light"),
                                    panel(measurements, false, "against the filter, converged")};
     std::string script =
         "set termoption noenhanced\nset multiplot\nset logscale xy\nset grid xtics ytics mytics\n"
         "set format y '%g'\nset format x '%g'\nset xlabel 'frame, ms' offset 0,0.2\n"
-        "set ylabel 'root-mean-square error of visibility' offset 0.5,0\nset xtics add "
+        "set ylabel 'root-mean-square error of visibility' offset 1.2,0\nset ytics add "
+        "(0.001,0.002,0.005,0.01,0.02,0.05,0.1,0.2)\nset xtics add "
         "(2,3,5,20,30,50,200,300,500,2000,3000)\n"
         "set tmargin at screen 0.92\nset bmargin at screen 0.29\n"
         "set key at graph 0.5,-0.24 center top horizontal maxcols 4 samplen 1 font ',12'\n";

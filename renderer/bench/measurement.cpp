@@ -11,10 +11,10 @@
 namespace stairstep::bench {
 namespace {
 
-/// A map's size may take this many times its patience, and a few frames, to settle.
-constexpr int kMostPatience = 4;
-/// Of a scene that stands still: with more, a size would be the same and only take longer to settle.
-constexpr int kStillPatience_frames = 3;
+/// A new renderer meets its first frame's needs at once; this many frames without a change show that it has, and so many are
+/// waited for at most.
+constexpr int kSettledFrames = 4;
+constexpr int kMostSettlingFrames = 40;
 /// As PcfExact has it: exact filters beyond this many texels a side take seconds a frame.
 constexpr double kWidestExact_texels = 128;
 
@@ -31,7 +31,6 @@ ShadowRenderer make_renderer(const Configuration& configuration, const Measureme
     shadow.radius = subject.radius;
     shadow.fixed_size = configuration.side;
     shadow.largest_size = settings.largest_size;
-    shadow.patience = settings.patience;
     return ShadowRenderer(technique_named(configuration.entry), shadow, subject.scene, subject.state,
                           aspect_of(settings));
 }
@@ -61,12 +60,10 @@ struct Timed {
     std::vector<FrameTime> times{};
 };
 
-/// A frame, and as many more as the map's size takes to have stayed for longer than its patience.
-void draw_until_settled(ShadowRenderer& renderer, const Subject& subject, const FrameTarget& target, bool by_need,
-                        const TexelPatience& patience) {
+void draw_until_settled(ShadowRenderer& renderer, const Subject& subject, const FrameTarget& target, bool by_need) {
     gl::PassTimer timer;
     int settled = 0;
-    for (int i = 0; i < kMostPatience * (patience.frames + 2) && settled < patience.frames + 2; ++i) {
+    for (int i = 0; i < kMostSettlingFrames && settled < kSettledFrames; ++i) {
         const glm::dvec2 texel = renderer.map().shape.texel();
         renderer.draw(subject.scene, subject.state, target, timer);
         settled = renderer.map().shape.texel() == texel ? settled + 1 : 0;
@@ -158,7 +155,7 @@ std::vector<Configuration> feasible(const std::vector<Configuration>& list, cons
 ShadowRenderer settled_renderer(const Configuration& configuration, const MeasurementSettings& settings,
                                 const Subject& subject, const FrameTarget& target) {
     ShadowRenderer renderer = make_renderer(configuration, settings, subject);
-    draw_until_settled(renderer, subject, target, follows_need(configuration, renderer), settings.patience);
+    draw_until_settled(renderer, subject, target, follows_need(configuration, renderer));
     return renderer;
 }
 
@@ -170,13 +167,11 @@ std::vector<Measurement> measure(const std::vector<Configuration>& list, const M
     const FrameTarget visibility = make_frame_target(Show::visibility, settings.width, settings.height, 1);
     const std::vector<Configuration> todo = feasible(list, settings, subject, visibility, notes);
     for (size_t left_out = todo.size(); left_out < list.size(); ++left_out) advance();
-    MeasurementSettings still = settings;
-    still.patience.frames = std::min(settings.patience.frames, kStillPatience_frames);
     std::vector<Measurement> done;
     for (const auto& members : groups_of(todo, settings.most_map_bytes, settings.largest_size)) {
         std::vector<Timed> group;
         for (const Configuration& one : members) {
-            group.push_back({one, settled_renderer(one, still, subject, target)});
+            group.push_back({one, settled_renderer(one, settings, subject, target)});
         }
         gl::PassTimer timer;
         for (int i = 0; i < settings.frames; ++i) {

@@ -29,7 +29,6 @@ struct MeasurementSettings {
     int largest_size = 8192;
     /// Of shadow maps at once, unless one configuration needs more.
     double most_map_bytes = 2.0 * 1024 * 1024 * 1024;
-    TexelPatience patience;
 };
 
 /// A scene on the GPU, in the state that is measured.
