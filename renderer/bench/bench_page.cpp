@@ -9,6 +9,9 @@
 namespace stairstep::bench {
 namespace {
 
+/// Longer tables are folded.
+constexpr size_t kMostOpenRows = 20;
+
 std::string escaped(const std::string& text) {
     std::string html;
     for (const char c : text) {
@@ -37,7 +40,10 @@ std::string table_row(const Measurement& one) {
     cell(label(one.configuration));
     cell(one.width ? std::to_string(one.width) + " × " + std::to_string(one.height) : "");
     const std::string search = one.lookups.search ? std::to_string(one.lookups.search) + "+" : "";
-    cell(one.lookups.filter ? search + std::to_string(one.lookups.filter) + (one.lookups.gathers ? " gathers" : " taps")
+    cell(one.lookups.filter ? search + std::to_string(one.lookups.filter) +
+                                  (one.lookups.gathers       ? " gathers"
+                                   : one.lookups.filter == 1 ? " tap"
+                                                             : " taps")
                             : "");
     cell(format_fixed(one.frame.cpu_ms, 1));
     cell(format_fixed(one.depth.cpu_ms, 1));
@@ -72,8 +78,14 @@ std::string scene_section(const SceneMeasurements& scene, const SceneFiles& file
     }
     html += "</ul>\n";
     for (const std::string& line : dominated_by_law(scene.measurements)) html += "<p>" + escaped(line) + "</p>\n";
-    html += "<figure><img src=\"" + escaped(files.figure) + "\" alt=\"Frame time against error\"></figure>\n";
-    html += "<div class=\"wide\">" + table(scene.measurements) + "</div>\n";
+    html += "<figure><img src=\"" + escaped(files.figure) +
+            "\" alt=\"Frame time against error\"><figcaption>Filled: maps sized by the law, with their taps. Open: "
+            "fixed maps. Grey: the frontier.</figcaption></figure>\n";
+    const std::string rows = "<div class=\"wide\">" + table(scene.measurements) + "</div>\n";
+    const size_t count = scene.measurements.size();
+    html += count <= kMostOpenRows ? rows
+                                   : "<details><summary>All " + std::to_string(count) + " configurations</summary>\n" +
+                                         rows + "</details>\n";
     for (const std::string& note : scene.notes) html += "<p class=\"subtitle\">" + escaped(note) + ".</p>\n";
     html += "<div class=\"pictures\">\n";
     for (const Picture& picture : files.pictures) {
