@@ -1,5 +1,8 @@
 #include "renderer/depth_ranges.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "embedded/shaders.h"
 
 namespace stairstep {
@@ -14,18 +17,26 @@ glm::ivec2 blocks_of(const glm::ivec2& size) {
 
 }  // namespace
 
-DepthRanges::DepthRanges(const glm::ivec2& largest)
-    : capacity_(blocks_of(largest)),
-      blocks_program_(gl::make_program("range blocks", {embedded::fullscreen_vert}, {embedded::range_blocks_frag})),
+DepthRanges::DepthRanges()
+    : blocks_program_(gl::make_program("range blocks", {embedded::fullscreen_vert}, {embedded::range_blocks_frag})),
       windows_program_(gl::make_program("range windows", {embedded::fullscreen_vert}, {embedded::range_windows_frag})),
-      no_vertices_(gl::make_vertex_array()),
-      blocks_(gl::make_texture(GL_RG32F, capacity_.x, capacity_.y)),
-      windows_(gl::make_texture(GL_RG32F, capacity_.x + kBefore + 1, capacity_.y + kBefore + 1)),
-      blocks_framebuffer_(gl::make_framebuffer(blocks_.id(), 0)),
-      windows_framebuffer_(gl::make_framebuffer(windows_.id(), 0)) {}
+      no_vertices_(gl::make_vertex_array()) {}
+
+void DepthRanges::reserve(const glm::ivec2& blocks) {
+    if (blocks.x <= capacity_.x && blocks.y <= capacity_.y) return;
+    for (const int axis : {0, 1}) {
+        const auto wanted = std::bit_ceil(static_cast<unsigned>(blocks[axis]));
+        capacity_[axis] = std::max(capacity_[axis], static_cast<int>(wanted));
+    }
+    blocks_ = gl::make_texture(GL_RG32F, capacity_.x, capacity_.y);
+    windows_ = gl::make_texture(GL_RG32F, capacity_.x + kBefore + 1, capacity_.y + kBefore + 1);
+    blocks_framebuffer_ = gl::make_framebuffer(blocks_.id(), 0);
+    windows_framebuffer_ = gl::make_framebuffer(windows_.id(), 0);
+}
 
 void DepthRanges::fill(GLuint depth_texture, const glm::ivec2& size) {
     const glm::ivec2 blocks = blocks_of(size);
+    reserve(blocks);
     windows_count_ = blocks + kBefore + 1;
     gl::Disable(GL_DEPTH_TEST);
     gl::BindVertexArray(no_vertices_.id());

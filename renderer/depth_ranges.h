@@ -15,17 +15,19 @@ inline constexpr int kWindowWidth = 12;
 
 class DepthRanges {
   public:
-    /// For textures of up to this size.
-    explicit DepthRanges(const glm::ivec2& largest);
+    DepthRanges();
 
-    /// Finds the ranges of a texture's depths, texels [0, size); beyond it all is empty (1).
+    /// Finds the ranges of a texture's depths, texels [0, size); beyond it all is empty (1). Memory grows by doubling.
     void fill(GLuint depth_texture, const glm::ivec2& size);
 
     /// Sets what shaders/ranges.glsl needs, on texture unit 3.
     void bind(const gl::Program& program) const;
 
   private:
-    glm::ivec2 capacity_;
+    void reserve(const glm::ivec2& blocks);
+
+    /// Blocks that there is memory for.
+    glm::ivec2 capacity_{0};
     gl::Program blocks_program_;
     gl::Program windows_program_;
     gl::VertexArray no_vertices_;

@@ -43,13 +43,16 @@ glm::ivec2 levels_texture_size(int capacity) {
     return {capacity + divided_up(capacity, 2) + divided_up(capacity, 3) + 3 * kGuards, capacity + slack};
 }
 
-MapLevels::MapLevels(int capacity)
-    : size_(levels_texture_size(capacity)),
-      program_(gl::make_program("levels", {embedded::fullscreen_vert}, {embedded::map_level_frag})),
-      no_vertices_(gl::make_vertex_array()),
-      texture_(gl::make_texture(GL_R32F, size_.x, size_.y)),
-      framebuffer_(gl::make_framebuffer(texture_.id(), 0)),
-      ranges_(size_) {
+MapLevels::MapLevels()
+    : program_(gl::make_program("levels", {embedded::fullscreen_vert}, {embedded::map_level_frag})),
+      no_vertices_(gl::make_vertex_array()) {}
+
+void MapLevels::reserve(int capacity) {
+    if (capacity == capacity_) return;
+    capacity_ = capacity;
+    size_ = levels_texture_size(capacity);
+    texture_ = gl::make_texture(GL_R32F, size_.x, size_.y);
+    framebuffer_ = gl::make_framebuffer(texture_.id(), 0);
     gl::TextureParameteri(texture_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl::TextureParameteri(texture_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl::TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -60,6 +63,7 @@ MapLevels::MapLevels(int capacity)
 }
 
 void MapLevels::fill(const ShadowMap& map) {
+    reserve(map.capacity);
     places_ = level_places(map.shape.width, map.shape.height);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
     gl::Disable(GL_DEPTH_TEST);

@@ -40,9 +40,9 @@ glm::ivec2 levels_texture_size(int capacity);
 
 class MapLevels {
   public:
-    explicit MapLevels(int capacity);
+    MapLevels();
 
-    /// Fills the levels from the map, and finds the ranges of their depths where there are few enough.
+    /// Fills the levels from the map, with memory for as large maps as the map itself has, and finds the ranges of their depths where there are few enough.
     void fill(const ShadowMap& map);
 
     const std::vector<LevelPlace>& places() const { return places_; }
@@ -51,7 +51,11 @@ class MapLevels {
     void bind(const gl::Program& program) const;
 
   private:
-    glm::ivec2 size_;
+    void reserve(int capacity);
+
+    /// Of the maps whose levels there is memory for.
+    int capacity_ = 0;
+    glm::ivec2 size_{0};
     gl::Program program_;
     gl::VertexArray no_vertices_;
     /// R32F; empty texels hold 1.

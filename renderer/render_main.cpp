@@ -6,6 +6,8 @@
 
 #include "analysis/law/law_file.h"
 #include "analysis/law/sizing.h"
+#include "renderer/commands/commands.h"
+#include "renderer/commands/picture_size.h"
 #include "renderer/image_job.h"
 #include "renderer/scenes/scenes.h"
 #include "renderer/techniques/techniques.h"
@@ -62,13 +64,6 @@ void print_size(const SizeOptions& options) {
     }
 }
 
-/// A whole number in [1, kLargestSide].
-std::optional<int> side_of(const std::string& text) {
-    const auto number = parse_number(text);
-    if (!number || !(*number >= 1 && *number <= kLargestSide) || *number != std::floor(*number)) return std::nullopt;
-    return static_cast<int>(*number);
-}
-
 std::vector<std::optional<int>> resolutions_of(const std::string& text) {
     std::vector<std::optional<int>> resolutions;
     for (const std::string& part : split(text, ',')) {
@@ -106,15 +101,7 @@ Direction direction_of(const std::string& flag, const std::string& text, double*
 ImageJob job_of(const ImageOptions& options) {
     ImageJob job = options.job;
     job.resolutions = resolutions_of(options.resolution);
-    const std::vector<std::string> sides = split(options.size, 'x');
-    const std::optional<int> width = sides.size() == 2 ? side_of(sides[0]) : std::nullopt;
-    const std::optional<int> height = sides.size() == 2 ? side_of(sides[1]) : std::nullopt;
-    if (!width || !height) {
-        throw InputError("--size", "\"" + options.size + "\" is no image size",
-                         "write WIDTHxHEIGHT, each 1 to 16384, as 1280x720");
-    }
-    job.width = *width;
-    job.height = *height;
+    std::tie(job.width, job.height) = picture_size_of("--size", options.size);
     job.filter = filter_mode_named(options.filter);
     job.context = gl::context_kind_named(options.context);
     job.fit = options.fit == "smallest" ? Fit::smallest_rectangle : Fit::axis_aligned;
@@ -224,5 +211,6 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     stairstep::add_size_command(app, size);
     stairstep::add_image_command(app, image);
+    stairstep::add_bench_command(app);
     return stairstep::run_program(app, argc, argv);
 }

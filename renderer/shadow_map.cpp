@@ -1,5 +1,8 @@
 #include "renderer/shadow_map.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace stairstep {
 
 DepthMap make_depth_map(int width, int height) {
@@ -15,6 +18,11 @@ DepthMap make_depth_map(int width, int height) {
 ShadowMap reserve_shadow_map(int capacity) {
     const int side = capacity + 2 * kGuardTexels;
     return {capacity, make_depth_map(side, side), {}, 0};
+}
+
+int capacity_for(int side, int largest) {
+    constexpr int kLeast = 256;
+    return std::min(std::max(static_cast<int>(std::bit_ceil(static_cast<unsigned>(side))), kLeast), largest);
 }
 
 }  // namespace stairstep

@@ -20,8 +20,8 @@ DepthMap make_depth_map(int width, int height);
 /// test. shaders/receiver.glsl has the same number.
 inline constexpr int kGuardTexels = 2;
 
-/// Memory for maps of up to `capacity` texels a side, reserved once, and the map that it holds now: a part of it, behind
-/// kGuardTexels of empty ones. Techniques read raw depths, so that each texel can be compared with the depth that the
+/// Memory for maps of up to `capacity` texels a side, and the map that it holds now: a part of it, behind kGuardTexels of
+/// empty ones. Techniques read raw depths, so that each texel can be compared with the depth that the
 /// receiver's plane has at this very texel.
 struct ShadowMap {
     int capacity = 0;
@@ -36,5 +36,10 @@ struct ShadowMap {
 
 /// An empty map. Throws FailureError as make_depth_map.
 ShadowMap reserve_shadow_map(int capacity);
+
+/// The capacity for maps of this many texels a side: a power of two, or `largest` where that is less. Memory that grows by
+/// doubling is reserved a few times in a program's life; the largest from the start would cost each frame, as what is drawn
+/// into large memory is slower (of 8192² by 4 ms a pass on llvmpipe) however small a part it fills.
+int capacity_for(int side, int largest);
 
 }  // namespace stairstep

@@ -1,7 +1,6 @@
 #include "renderer/shadow_renderer.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -145,7 +144,7 @@ ShadowRenderer::ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings
                                const SceneState& first, double aspect)
     : settings_(settings),
       name_(entry.name),
-      map_(reserve_shadow_map(settings.fixed_size.value_or(settings.largest_size))),
+      map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)))),
       depth_program_(gl::make_program("depth", {embedded::depth_vert}, {embedded::depth_frag})) {
     // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
     map_.filter_radius = light_plane_radius(settings.radius, first.light, scene.middle);
@@ -200,7 +199,8 @@ ShadowMapShape ShadowRenderer::fit(const GpuScene& scene, const SceneState& stat
 
 FrameTime ShadowRenderer::draw_with(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
                                     const FrameTarget& target, gl::PassTimer& timer) {
-    assert(std::max(shape.width, shape.height) <= map_.capacity);
+    const int side = std::max(shape.width, shape.height);
+    if (side > map_.capacity) map_ = reserve_shadow_map(capacity_for(side, std::max(side, settings_.largest_size)));
     map_.shape = shape;
     map_.filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
     FrameTime time;

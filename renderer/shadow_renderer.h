@@ -57,7 +57,7 @@ class ShadowRenderer {
     /// reports an error.
     FrameTime draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target, gl::PassTimer& timer);
 
-    /// Draws a frame with a map of this shape, which the settings' own sizes must have room for.
+    /// Draws a frame with a map of this shape.
     FrameTime draw_with(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
                         const FrameTarget& target, gl::PassTimer& timer);
 

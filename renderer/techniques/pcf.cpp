@@ -37,8 +37,6 @@ void require_narrow(const ShadowMap& map) {
 
 class PcfExact final : public ShadowTechnique {
   public:
-    explicit PcfExact(int texture_side) : ranges_(glm::ivec2(texture_side)) {}
-
     std::vector<std::string_view> shader() const override {
         return {embedded::ranges_glsl, embedded::box_filter_glsl, embedded::pcf_exact_glsl};
     }
@@ -106,7 +104,7 @@ std::unique_ptr<ShadowTechnique> make_pcf(const TechniqueSettings& settings, con
     }
     if (filter == FilterMode::exact) {
         require_narrow(first);
-        return std::make_unique<PcfExact>(first.texture_side());
+        return std::make_unique<PcfExact>();
     }
     return std::make_unique<PcfSampled>(filter, settings.filter_taps);
 }

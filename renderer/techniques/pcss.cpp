@@ -53,7 +53,7 @@ class PcssSampled final : public ShadowTechnique {
 
 class PcssLevels final : public ShadowTechnique {
   public:
-    PcssLevels(int capacity, double slope) : levels_(capacity), slope_(slope) {}
+    explicit PcssLevels(double slope) : slope_(slope) {}
 
     std::vector<std::string_view> shader() const override {
         return {embedded::ranges_glsl, embedded::box_filter_glsl, embedded::pcss_levels_glsl};
@@ -83,10 +83,10 @@ class PcssLevels final : public ShadowTechnique {
     double slope_;
 };
 
-std::unique_ptr<ShadowTechnique> make_pcss(const TechniqueSettings& settings, const ShadowMap& first, bool by_law) {
+std::unique_ptr<ShadowTechnique> make_pcss(const TechniqueSettings& settings, const ShadowMap&, bool by_law) {
     FilterMode filter = settings.filter;
     if (filter == FilterMode::automatic) filter = by_law ? FilterMode::exact : FilterMode::rotated;
-    if (filter == FilterMode::exact) return std::make_unique<PcssLevels>(first.capacity, settings.law_slope);
+    if (filter == FilterMode::exact) return std::make_unique<PcssLevels>(settings.law_slope);
     return std::make_unique<PcssSampled>(filter, settings);
 }
 

@@ -81,33 +81,34 @@ std::string description_of(const std::string& key) {
     return "stairstep-truth/" + std::to_string(kAreaLightTruthVersion) + " " + key;
 }
 
-/// The values of a file that is there. Throws InputError if they aren't what the key stands for.
-std::vector<float> read_truth(const fs::path& path, const std::string& key, int width, int height) {
+/// The values of a file that is there. Throws InputError if they aren't what the description says.
+std::vector<float> read_truth(const fs::path& path, const std::string& description, int width, int height) {
     StoredImage image = read_stored_image(path);
     const bool is_visibility =
         std::all_of(image.values.begin(), image.values.end(), [](float value) { return value >= 0 && value <= 1; });
     if (image.width_px != width || image.height_px != height || image.bits != 32 || !is_visibility ||
-        stored_description(path) != description_of(key)) {
+        stored_description(path) != description) {
         throw InputError(path.string(), "is no ground truth for this picture", "remove it");
     }
     return std::move(image.values);
 }
 
-std::optional<std::vector<float>> truth_on_disk(const fs::path& path, const std::string& key, int width, int height) {
+std::optional<std::vector<float>> truth_on_disk(const fs::path& path, const std::string& description, int width,
+                                                int height) {
     std::error_code error;
     if (!fs::exists(path, error)) return std::nullopt;
     try {
-        return read_truth(path, key, width, height);
+        return read_truth(path, description, width, height);
     } catch (const InputError& e) {
         warn("cached ground truth", (std::string(e.what()) + "; it is made anew").c_str());
         return std::nullopt;
     }
 }
 
-void store_truth(const fs::path& path, const StoredImage& image, const std::string& key) {
+void store_truth(const fs::path& path, const StoredImage& image, const std::string& description) {
     try {
         make_output_folder(path.parent_path());
-        write_stored_image(path, image, description_of(key));
+        write_stored_image(path, image, description);
     } catch (const Error& e) {
         warn("ground truth", (std::string(e.what()) + "; it isn't kept").c_str());
     }
@@ -121,6 +122,14 @@ fs::path default_cache_folder() {
     const char* home = std::getenv("HOME");
     if (home && *home) return fs::path(home) / ".cache" / "stairstep";
     throw InputError("HOME", "isn't set, so there is no folder to keep ground truth in", "set it or XDG_CACHE_HOME");
+}
+
+std::vector<float> cached_visibility(const fs::path& path, const std::string& description, int width, int height,
+                                     const std::function<std::vector<float>()>& make) {
+    if (auto known = truth_on_disk(path, description, width, height)) return std::move(*known);
+    StoredImage image{width, height, 32, make()};
+    store_truth(path, image, description);
+    return std::move(image.values);
 }
 
 std::string truth_key(const Scene& scene, const SceneState& state, int width, int height, int samples) {
@@ -140,11 +149,8 @@ std::string truth_key(const Scene& scene, const SceneState& state, int width, in
 std::vector<float> cached_area_light_visibility(const Scene& scene, const SceneState& state, int width, int height,
                                                 int samples, const fs::path& folder, int jobs) {
     const std::string key = truth_key(scene, state, width, height, samples);
-    const fs::path path = folder / ("truth-" + key + ".exr");
-    if (auto known = truth_on_disk(path, key, width, height)) return std::move(*known);
-    StoredImage image{width, height, 32, area_light_visibility(scene, state, width, height, samples, jobs)};
-    store_truth(path, image, key);
-    return std::move(image.values);
+    return cached_visibility(folder / ("truth-" + key + ".exr"), description_of(key), width, height,
+                             [&] { return area_light_visibility(scene, state, width, height, samples, jobs); });
 }
 
 }  // namespace stairstep

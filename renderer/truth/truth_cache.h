@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,16 @@ namespace stairstep {
 /// Specification). Throws InputError where neither is known.
 std::filesystem::path default_cache_folder();
 
+/// The visibility that `make` gives, read from `path` where it is there with this description, and else written there for the
+/// next time. A file that is damaged or holds something else is made anew; so it is, and a folder that can't be written, said
+/// as a warning on stderr. Several processes may share a folder.
+std::vector<float> cached_visibility(const std::filesystem::path& path, const std::string& description, int width,
+                                     int height, const std::function<std::vector<float>()>& make);
+
 /// 32 hexadecimal digits.
 std::string truth_key(const Scene& scene, const SceneState& state, int width, int height, int samples);
 
-/// As area_light_visibility, read from the folder where it is there, and else written there for the next time. A file that is
-/// damaged or holds something else is made anew; so it is, and a folder that can't be written, said as a warning on stderr.
-/// Several processes may share a folder.
+/// area_light_visibility, as cached_visibility keeps it in the folder.
 std::vector<float> cached_area_light_visibility(const Scene& scene, const SceneState& state, int width, int height,
                                                 int samples, const std::filesystem::path& folder, int jobs = 0);
 

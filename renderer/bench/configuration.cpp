@@ -1,0 +1,135 @@
+#include "renderer/bench/configuration.h"
+
+#include <algorithm>
+#include <array>
+
+namespace stairstep::bench {
+namespace {
+
+constexpr std::array<std::optional<int>, 6> kSides{512, 1024, 2048, 4096, 8192, std::nullopt};
+constexpr std::array kTaps{9, 25, 49};
+
+bool is_pcss(const Configuration& configuration) {
+    return configuration.entry == "pcss";
+}
+
+bool contains(const std::vector<Configuration>& list, const Configuration& configuration) {
+    return std::find(list.begin(), list.end(), configuration) != list.end();
+}
+
+}  // namespace
+
+std::string_view name(TruthKind kind) {
+    switch (kind) {
+        case TruthKind::area_light: return "area-light";
+        case TruthKind::box_filter: return "box-filter";
+        case TruthKind::disk_filter: break;
+    }
+    return "disk-filter";
+}
+
+std::string label(const Configuration& configuration) {
+    if (configuration.entry == "none") return configuration.technique;
+    std::string text =
+        configuration.technique + " " + (configuration.side ? std::to_string(*configuration.side) : "auto");
+    if (configuration.taps > 0) {
+        const std::string taps = std::to_string(configuration.taps);
+        text += ", " + (is_pcss(configuration) ? taps + "+" + taps : taps) + " taps";
+    }
+    return text;
+}
+
+TruthKind truth_of(const Configuration& configuration) {
+    if (configuration.entry != "pcf") return TruthKind::area_light;
+    const bool disk = configuration.filter == FilterMode::poisson || configuration.filter == FilterMode::rotated;
+    return disk ? TruthKind::disk_filter : TruthKind::box_filter;
+}
+
+Configuration auto_pcf() {
+    return {"pcf-exact", "pcf", FilterMode::exact, std::nullopt, 0};
+}
+
+Configuration fixed_pcf() {
+    return {"pcf-rotated", "pcf", FilterMode::rotated, kBaselineSide, kBaselineTaps};
+}
+
+Configuration auto_pcss() {
+    return {"pcss-levels", "pcss", FilterMode::exact, std::nullopt, 0};
+}
+
+Configuration fixed_pcss() {
+    return {"pcss", "pcss", FilterMode::rotated, kBaselineSide, kBaselineTaps};
+}
+
+Configuration baseline_of(const Configuration& configuration) {
+    return is_pcss(configuration) ? fixed_pcss() : fixed_pcf();
+}
+
+std::vector<Configuration> all_configurations() {
+    std::vector<Configuration> list{{"none", "none", FilterMode::automatic, 1, 0}};
+    const auto add = [&](const std::string& technique, const std::string& entry, FilterMode filter, int taps) {
+        for (const auto& side : kSides) list.push_back({technique, entry, filter, side, taps});
+    };
+    add("hard", "hard", FilterMode::automatic, 0);
+    add("pcf-exact", "pcf", FilterMode::exact, 0);
+    for (const FilterMode filter : {FilterMode::jittered, FilterMode::poisson, FilterMode::rotated}) {
+        for (const int taps : kTaps) add("pcf-" + std::string(name(filter)), "pcf", filter, taps);
+    }
+    for (const int taps : kTaps) add("pcss", "pcss", FilterMode::rotated, taps);
+    add("pcss-levels", "pcss", FilterMode::exact, 0);
+    return list;
+}
+
+std::vector<Configuration> quick_configurations() {
+    Configuration small_pcf = fixed_pcf();
+    Configuration small_pcss = fixed_pcss();
+    small_pcf.side = small_pcss.side = 1024;
+    return {{"none", "none", FilterMode::automatic, 1, 0},
+            {"hard", "hard", FilterMode::automatic, std::nullopt, 0},
+            auto_pcf(),
+            fixed_pcf(),
+            small_pcf,
+            auto_pcss(),
+            fixed_pcss(),
+            small_pcss};
+}
+
+double map_bytes(const Configuration& configuration, int largest_size) {
+    const double side = configuration.side.value_or(largest_size);
+    // Depths are floats; all of a map's levels together take less than its own size once more.
+    return 4 * side * side * (is_pcss(configuration) && configuration.filter == FilterMode::exact ? 2 : 1);
+}
+
+std::vector<std::vector<Configuration>> groups_of(const std::vector<Configuration>& list, double most_bytes,
+                                                  int largest_size) {
+    std::vector<std::vector<Configuration>> groups;
+    double bytes = 0;
+    for (const Configuration& configuration : list) {
+        // A baseline is in the groups that need it; by itself it makes one.
+        std::vector<Configuration> wanted{baseline_of(configuration)};
+        if (configuration != wanted.front()) wanted.push_back(configuration);
+        const auto missing_bytes = [&] {
+            double sum = 0;
+            for (const Configuration& one : wanted) {
+                if (groups.empty() || !contains(groups.back(), one)) sum += map_bytes(one, largest_size);
+            }
+            return sum;
+        };
+        if (groups.empty() || bytes + missing_bytes() > most_bytes) {
+            groups.emplace_back();
+            bytes = 0;
+        }
+        bytes += missing_bytes();
+        for (const Configuration& one : wanted) {
+            if (contains(groups.back(), one)) continue;
+            if (one == baseline_of(one)) {
+                groups.back().insert(groups.back().begin(), one);
+            } else {
+                groups.back().push_back(one);
+            }
+        }
+    }
+    return groups;
+}
+
+}  // namespace stairstep::bench
