@@ -216,7 +216,10 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
     Rectangle seen = overlap(around(caster_plane, axis), widened(around(receiver_plane, axis), look_around));
     if (spot) seen = overlap(seen, widened(around(whole_cone, axis), look_around));
     // Nothing that casts a shadow on anything visible: a map of any place will do.
-    if (seen.empty()) seen = {glm::dvec2(0), glm::dvec2(0)};
+    if (seen.empty()) {
+        frustum.shadowless = true;
+        seen = {glm::dvec2(-look_around), glm::dvec2(look_around)};
+    }
     const double least = 1e-6 * (spot ? cone : diagonal) + std::numeric_limits<double>::min();
     frustum.low = seen.low - least;
     frustum.high = seen.high + least;

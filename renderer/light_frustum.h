@@ -29,6 +29,8 @@ struct LightFrustum {
     /// caster: stored depth is linear in depth for a directional light and in its reciprocal for a spot, and so is the
     /// half-width (light.h), so their quotient is a constant.
     double softness = 0;
+    /// Whether no caster can shade anything visible. The frustum is then of no place in particular.
+    bool shadowless = false;
     /// Depth of the visible receiver farthest along the light, as stored depths are, but above 1 beyond the map's end.
     double receiver_depth = 1;
     /// Distance along the view of the nearest visible receiver that may be shadowed, world units; infinite for none.

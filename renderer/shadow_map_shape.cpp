@@ -29,6 +29,8 @@ std::string_view name(ShadowMapShape::Limit limit) {
 }
 
 ShadowMapShape map_of_size(const LightFrustum& frustum, int side) {
+    // A map without shadows is empty at any size.
+    if (frustum.shadowless) side = 1;
     return {frustum, side, side, ShadowMapShape::Limit::fixed};
 }
 

@@ -25,7 +25,7 @@ struct ShadowMapShape {
 
 std::string_view name(ShadowMapShape::Limit limit);
 
-/// A map of side × side texels, whatever the frustum's proportions.
+/// A map of side × side texels, whatever the frustum's proportions; of one where the frustum is shadowless.
 ShadowMapShape map_of_size(const LightFrustum& frustum, int side);
 
 /// The largest number of at most 12 significant bits that is not above `texel` > 0: short enough for a texel's place, a
