@@ -36,14 +36,15 @@ std::vector<Bar> bars_of(const std::vector<Measurement>& measurements) {
                  against(pcf->error.penumbra_rmse, pcf_fixed->error.penumbra_rmse, 4)});
     }
     if (pcss && pcss_fixed) {
-        const bool met = pcss->time_ratio <= kPcssTimeBar && pcss->error.rmse <= pcss_fixed->error.rmse;
+        const bool met =
+            pcss->time_ratio <= kPcssTimeBar && pcss->error.penumbra_rmse <= pcss_fixed->error.penumbra_rmse;
         bars.push_back(
             {"auto pcss-levels in at most 0.5 of the time of pcss with 25+25 taps over 4096 x 4096, at no "
-             "higher error",
+             "higher penumbra error",
              met,
-             "time x " + format_fixed(pcss->time_ratio, 2) + ", error " +
-                 against(pcss->error.rmse, pcss_fixed->error.rmse, 4) + ", in the penumbra " +
-                 against(pcss->error.penumbra_rmse, pcss_fixed->error.penumbra_rmse, 4)});
+             "time x " + format_fixed(pcss->time_ratio, 2) + ", penumbra error " +
+                 against(pcss->error.penumbra_rmse, pcss_fixed->error.penumbra_rmse, 4) + " (over all pixels " +
+                 against(pcss->error.rmse, pcss_fixed->error.rmse, 4) + ")"});
     }
     if (pcf && pcf_fixed) {
         add_wobble(bars, "auto pcf-exact wobbles no more than 25 rotated taps over 4096 x 4096", *pcf, *pcf_fixed);

@@ -1,8 +1,8 @@
 // The bars that sizing by the law has to clear in a scene.
 //
 //   time      auto pcf-exact takes at most 0.4 of the frame time of 25 rotated taps over 4096², at a lower penumbra error
-//   soft      auto pcss-levels takes at most 0.5 of that of pcss with 25 + 25 taps over 4096², at no higher error against the
-//             area light
+//   soft      auto pcss-levels takes at most 0.5 of that of pcss with 25 + 25 taps over 4096², at no higher penumbra error
+//             against the area light
 //   wobble    auto's shadows wobble no more than those of 4096²: pcf-exact against pcf-rotated, pcss-levels against pcss
 #pragma once
 
