@@ -27,21 +27,6 @@ std::string base64(const std::string& bytes) {
 
 }  // namespace
 
-std::string escaped(const std::string& text) {
-    std::string html;
-    for (const char c : text) {
-        switch (c) {
-            case '&': html += "&amp;"; break;
-            case '<': html += "&lt;"; break;
-            case '>': html += "&gt;"; break;
-            case '"': html += "&quot;"; break;
-            case '{': html += "&#123;"; break;  // or it could look like a place of the template
-            default: html += c;
-        }
-    }
-    return html;
-}
-
 Page& Page::set(const std::string& name, const std::string& html) {
     const std::string mark = "{{" + name + "}}";
     assert(html_.find(mark) != std::string::npos);

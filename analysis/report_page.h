@@ -6,10 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace stairstep {
+#include "stimuli/io/html.h"
 
-/// A text as HTML: & < > " and { escaped.
-std::string escaped(const std::string& text);
+namespace stairstep {
 
 /// Replaces each {{name}} of a template; a value without a place in it is a bug (asserted).
 class Page {

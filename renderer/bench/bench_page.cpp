@@ -4,6 +4,7 @@
 
 #include "embedded/bench_page.h"
 #include "renderer/bench/bars.h"
+#include "stimuli/io/html.h"
 #include "stimuli/number.h"
 
 namespace stairstep::bench {
@@ -11,20 +12,6 @@ namespace {
 
 /// Longer tables are folded.
 constexpr size_t kMostOpenRows = 20;
-
-std::string escaped(const std::string& text) {
-    std::string html;
-    for (const char c : text) {
-        switch (c) {
-            case '&': html += "&amp;"; break;
-            case '<': html += "&lt;"; break;
-            case '>': html += "&gt;"; break;
-            case '"': html += "&quot;"; break;
-            default: html += c;
-        }
-    }
-    return html;
-}
 
 void replace(std::string& html, const std::string& place, const std::string& value) {
     const std::string mark = "{{" + place + "}}";

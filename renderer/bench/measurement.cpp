@@ -1,4 +1,5 @@
 #include "renderer/bench/measurement.h"
+#include "renderer/frame_median.h"
 
 #include <algorithm>
 #include <cassert>
@@ -33,20 +34,6 @@ ShadowRenderer make_renderer(const Configuration& configuration, const Measureme
     shadow.largest_size = settings.largest_size;
     return ShadowRenderer(technique_named(configuration.entry), shadow, subject.scene, subject.state,
                           aspect_of(settings));
-}
-
-double median(std::vector<double> values) {
-    assert(!values.empty());
-    std::sort(values.begin(), values.end());
-    const size_t half = values.size() / 2;
-    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
-template <typename Measure>
-double median_of(const std::vector<FrameTime>& times, Measure measure) {
-    std::vector<double> values;
-    std::transform(times.begin(), times.end(), std::back_inserter(values), measure);
-    return median(std::move(values));
 }
 
 MedianTime median_pass(const std::vector<FrameTime>& times, gl::PassTime FrameTime::*pass) {
