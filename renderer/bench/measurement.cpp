@@ -1,11 +1,11 @@
 #include "renderer/bench/measurement.h"
-#include "renderer/frame_median.h"
 
 #include <algorithm>
 #include <cassert>
 #include <memory>
 
 #include "renderer/bench/frontier.h"
+#include "renderer/frame_median.h"
 #include "renderer/techniques/techniques.h"
 #include "stimuli/number.h"
 

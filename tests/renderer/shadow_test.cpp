@@ -116,8 +116,8 @@ TEST_F(Shadow, ExactPcfIsTheBoxOverTheTexelsOfAnyCaster) {
             ShadowMapShape shape = shape_over(0.041, 49, 40);
             shape.height = height;
             const double radius = 0.14;
-            const std::vector<float> drawn = made::draw_visibility(
-                scene, kCamera, "pcf", {radius, FilterMode::exact, 0}, shape, kWidth, kHeight);
+            const std::vector<float> drawn =
+                made::draw_visibility(scene, kCamera, "pcf", {radius, FilterMode::exact, 0}, shape, kWidth, kHeight);
             expect_everywhere(drawn, kLevel, [&](const glm::dvec2& p) {
                 return box_over_texels(shape, radius, p, shape_case.covers);
             });
