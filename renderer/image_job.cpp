@@ -5,6 +5,7 @@
 
 #include "analysis/law/law_file.h"
 #include "analysis/law/sizing.h"
+#include "renderer/box_slope.h"
 #include "renderer/comparison.h"
 #include "renderer/frame_median.h"
 #include "renderer/gl/context.h"
@@ -62,16 +63,6 @@ std::vector<fs::path> output_files(const ImageJob& job) {
     if (job.truth) files.push_back(labelled(job.out, "truth"));
     if (!job.stats.empty()) files.push_back(job.stats);
     return files;
-}
-
-/// The law's slope for the box that PCF filters with.
-double box_slope(const Law& law, const ImageJob& job) {
-    if (law.kernel == KernelShape::box) return law.slope;
-    if (!job.convert_kernel) {
-        throw InputError(job.law, "is a law for the kernel " + std::string(name(law.kernel)) + ", the filter is a box",
-                         "use a law for box, or --convert-kernel to convert it by equal variance");
-    }
-    return slope_for_kernel(law, KernelShape::box);
 }
 
 double distance_along_view(const Camera& camera, const glm::dvec3& point) {
@@ -209,7 +200,7 @@ ordered_json describe(const Rendering& rendering, const std::string& file, doubl
 ordered_json run_image_job(const ImageJob& job) {
     const TechniqueEntry& technique = technique_named(job.technique);
     const Law law = law_named(job.law);
-    const double slope = box_slope(law, job);
+    const double slope = box_slope(law, job.law, job.convert_kernel);
     const std::vector<fs::path> files = output_files(job);
     // What can't be written is found out before anything is drawn.
     for (const fs::path& file : files) OutputFile probe(file);

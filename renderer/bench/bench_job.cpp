@@ -9,6 +9,7 @@
 #include "renderer/bench/bench_csv.h"
 #include "renderer/bench/bench_page.h"
 #include "renderer/bench/frontier_figure.h"
+#include "renderer/box_slope.h"
 #include "renderer/scenes/scenes.h"
 #include "stimuli/error.h"
 #include "stimuli/io/gnuplot.h"
@@ -42,15 +43,6 @@ struct Shown {
 std::vector<Shown> shown_configurations() {
     return {
         {auto_pcf(), "pcf-auto"}, {fixed_pcf(), "pcf-4096"}, {auto_pcss(), "pcss-auto"}, {fixed_pcss(), "pcss-4096"}};
-}
-
-double box_slope(const Law& law, const BenchJob& job) {
-    if (law.kernel == KernelShape::box) return law.slope;
-    if (!job.convert_kernel) {
-        throw InputError(job.law, "is a law for the kernel " + std::string(name(law.kernel)) + ", the filter is a box",
-                         "use a law for box, or --convert-kernel to convert it by equal variance");
-    }
-    return slope_for_kernel(law, KernelShape::box);
 }
 
 double radius_of(const BenchJob& job, const AnimatedScene& animated) {
@@ -227,7 +219,7 @@ BenchJob quick_job() {
 ordered_json run_bench(const BenchJob& job) {
     const Law law = law_named(job.law);
     MeasurementSettings settings = job.measurement;
-    settings.law_slope = box_slope(law, job);
+    settings.law_slope = box_slope(law, job.law, job.convert_kernel);
     const std::vector<Entry> entries = load_scenes(job);
     probe_outputs(job, entries);
     const auto context = gl::make_context(job.context);

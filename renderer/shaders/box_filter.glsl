@@ -5,6 +5,3 @@ vec2 overlap(float first, float begin, float end) {
     vec2 side = vec2(first, first + 1);
     return clamp(min(side + 1, end) - max(side, begin), 0, 1);
 }
-
-// The first texel of the box of this half-width, texels, around a point.
-vec2 first_texel(vec2 point, vec2 radius) { return floor(point - radius); }

@@ -139,4 +139,23 @@ inline std::vector<float> draw_visibility(const Scene& scene, const Camera& came
     return draw_visibility(scene, state, technique, settings_of(filter), shape, width, height);
 }
 
+/// Visibility of the box by adding up, texel by texel, what casts no shadow: `covers` says whether the caster
+/// covers a point of the light plane.
+template <typename Covers>
+double box_over_texels(const ShadowMapShape& shape, double radius, const glm::dvec2& p, Covers covers) {
+    const glm::dvec2 texel = shape.texel();
+    double dark = 0;
+    for (int j = 0; j < shape.height; ++j) {
+        const double y = shape.frustum.low.y + j * texel.y;
+        const double height = std::min(y + texel.y, p.y + radius) - std::max(y, p.y - radius);
+        if (height <= 0) continue;
+        for (int i = 0; i < shape.width; ++i) {
+            const double x = shape.frustum.low.x + i * texel.x;
+            const double width = std::min(x + texel.x, p.x + radius) - std::max(x, p.x - radius);
+            if (width > 0 && covers(glm::dvec2(x, y) + 0.5 * texel)) dark += width * height;
+        }
+    }
+    return 1 - dark / (4 * radius * radius);
+}
+
 }  // namespace stairstep::made

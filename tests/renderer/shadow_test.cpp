@@ -38,25 +38,6 @@ ShadowMapShape shape_over(double texel, int width, int height) {
     return {frustum, width, height, ShadowMapShape::Limit::fixed};
 }
 
-/// Visibility of the box by adding up, texel by texel, what casts no shadow: `covers` says whether the caster
-/// covers a point of the light plane.
-template <typename Covers>
-double box_over_texels(const ShadowMapShape& shape, double radius, const glm::dvec2& p, Covers covers) {
-    const glm::dvec2 texel = shape.texel();
-    double dark = 0;
-    for (int j = 0; j < shape.height; ++j) {
-        const double y = shape.frustum.low.y + j * texel.y;
-        const double height = std::min(y + texel.y, p.y + radius) - std::max(y, p.y - radius);
-        if (height <= 0) continue;
-        for (int i = 0; i < shape.width; ++i) {
-            const double x = shape.frustum.low.x + i * texel.x;
-            const double width = std::min(x + texel.x, p.x + radius) - std::max(x, p.x - radius);
-            if (width > 0 && covers(glm::dvec2(x, y) + 0.5 * texel)) dark += width * height;
-        }
-    }
-    return 1 - dark / (4 * radius * radius);
-}
-
 template <typename Expected>
 void expect_everywhere(const std::vector<float>& drawn, double tolerance, Expected expected) {
     double worst = 0;
@@ -119,7 +100,7 @@ TEST_F(Shadow, ExactPcfIsTheBoxOverTheTexelsOfAnyCaster) {
             const std::vector<float> drawn =
                 made::draw_visibility(scene, kCamera, "pcf", {radius, FilterMode::exact, 0}, shape, kWidth, kHeight);
             expect_everywhere(drawn, kLevel, [&](const glm::dvec2& p) {
-                return box_over_texels(shape, radius, p, shape_case.covers);
+                return made::box_over_texels(shape, radius, p, shape_case.covers);
             });
         }
     }
