@@ -36,6 +36,7 @@ FrameTarget make_frame_target(Show show, int width, int height, int samples) {
         target.need = gl::make_texture(GL_R32F, width, height);
         target.need_framebuffer = gl::make_framebuffer(target.colour.id(), target.depth.id(), target.need.id());
     }
+    target.depth_framebuffer = gl::make_framebuffer(0, target.depth.id());
     return target;
 }
 

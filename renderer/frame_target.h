@@ -26,6 +26,8 @@ struct FrameTarget {
     /// Of one sample: the texel that each pixel needs (receiver.glsl), and a framebuffer with all three.
     gl::Texture need;
     gl::Framebuffer need_framebuffer;
+    /// The depth alone.
+    gl::Framebuffer depth_framebuffer;
 };
 
 /// samples ≥ 1 a pixel, for Show::colour alone: visibility is measured at pixel centres. Throws FailureError.

@@ -3,6 +3,8 @@
 #include <bit>
 #include <cstddef>
 
+#include "renderer/facet_vertices.h"
+
 namespace stairstep {
 namespace {
 
@@ -25,20 +27,6 @@ gl::Texture upload_texture(const Image& image) {
     return texture;
 }
 
-/// Appends the normal of each of the mesh's triangles.
-void append_facet_normals(const Mesh& mesh, std::vector<float>& normals) {
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const glm::dvec3 a = mesh.vertices[mesh.indices[i]].position;
-        const glm::dvec3 b = mesh.vertices[mesh.indices[i + 1]].position;
-        const glm::dvec3 c = mesh.vertices[mesh.indices[i + 2]].position;
-        const glm::dvec3 normal = glm::cross(b - a, c - a);
-        const double length = glm::length(normal);
-        for (int axis = 0; axis < 3; ++axis) {
-            normals.push_back(length > 0 ? static_cast<float>(normal[axis] / length) : 0);
-        }
-    }
-}
-
 void set_attribute(const gl::VertexArray& array, GLuint index, GLint components, size_t offset) {
     gl::EnableVertexArrayAttrib(array.id(), index);
     gl::VertexArrayAttribFormat(array.id(), index, components, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
@@ -47,35 +35,43 @@ void set_attribute(const gl::VertexArray& array, GLuint index, GLint components,
 
 }  // namespace
 
+glm::dmat4 world_from_model(const GpuScene::Draw& draw, const SceneState& state) {
+    return draw.mover ? state.movers[*draw.mover] : glm::dmat4(1);
+}
+
+void draw_elements(const GpuScene::Draw& draw) {
+    gl::DrawElements(GL_TRIANGLES, draw.index_count, GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(draw.first_index * sizeof(uint32_t)));
+}
+
 GpuScene upload(const Scene& scene) {
     GpuScene gpu;
-    std::vector<Vertex> vertices;
+    std::vector<FacetVertex> vertices;
     std::vector<uint32_t> indices;
-    std::vector<float> facet_normals;
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.indices.empty()) continue;
         gpu.draws.push_back({indices.size(), static_cast<GLsizei>(mesh.indices.size()), scene.materials[mesh.material],
                              mesh.casts, mesh.fades, mesh.mover});
         const auto base = static_cast<uint32_t>(vertices.size());
-        for (const uint32_t index : mesh.indices) indices.push_back(base + index);
-        append_facet_normals(mesh, facet_normals);
-        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        const FacetMesh facets = facet_mesh(mesh);
+        for (const uint32_t index : facets.indices) indices.push_back(base + index);
+        vertices.insert(vertices.end(), facets.vertices.begin(), facets.vertices.end());
     }
     if (indices.empty()) {
         // Buffers can't be empty; nothing is drawn from these.
         vertices.emplace_back();
         indices.push_back(0);
-        facet_normals.push_back(0);
     }
     gpu.vertices = gl::make_buffer(std::as_bytes(std::span(vertices)));
     gpu.indices = gl::make_buffer(std::as_bytes(std::span(indices)));
-    gpu.facet_normals = gl::make_buffer(std::as_bytes(std::span(facet_normals)));
     gpu.vertex_array = gl::make_vertex_array();
-    gl::VertexArrayVertexBuffer(gpu.vertex_array.id(), 0, gpu.vertices.id(), 0, sizeof(Vertex));
+    gl::VertexArrayVertexBuffer(gpu.vertex_array.id(), 0, gpu.vertices.id(), 0, sizeof(FacetVertex));
     gl::VertexArrayElementBuffer(gpu.vertex_array.id(), gpu.indices.id());
-    set_attribute(gpu.vertex_array, 0, 3, offsetof(Vertex, position));
-    set_attribute(gpu.vertex_array, 1, 3, offsetof(Vertex, normal));
-    set_attribute(gpu.vertex_array, 2, 2, offsetof(Vertex, uv));
+    constexpr size_t vertex = offsetof(FacetVertex, vertex);
+    set_attribute(gpu.vertex_array, 0, 3, vertex + offsetof(Vertex, position));
+    set_attribute(gpu.vertex_array, 1, 3, vertex + offsetof(Vertex, normal));
+    set_attribute(gpu.vertex_array, 2, 2, vertex + offsetof(Vertex, uv));
+    set_attribute(gpu.vertex_array, 3, 3, offsetof(FacetVertex, facet));
     for (const Image& image : scene.textures) gpu.textures.push_back(upload_texture(image));
     gpu.extents = extents_of(scene);
     const Bounds casters = caster_bounds(scene);

@@ -5,6 +5,7 @@
 
 #include "renderer/gl/objects.h"
 #include "renderer/scene_extents.h"
+#include "renderer/scene_state.h"
 
 namespace stairstep {
 
@@ -21,10 +22,7 @@ struct GpuScene {
 
     gl::Buffer vertices;
     gl::Buffer indices;
-    /// Three floats a triangle, in the order of `indices`: the unit normal of its plane; 0 where it has no
-    /// area.
-    gl::Buffer facet_normals;
-    /// Attributes 0 position, 1 normal, 2 uv.
+    /// Attributes 0 position, 1 normal, 2 uv, 3 facet (facet_vertices.h).
     gl::VertexArray vertex_array;
     /// As Scene::textures; sRGB with mipmaps.
     std::vector<gl::Texture> textures;
@@ -34,6 +32,12 @@ struct GpuScene {
     glm::dvec3 middle{0};
     double diagonal = 1;
 };
+
+/// Where a draw's vertices are now.
+glm::dmat4 world_from_model(const GpuScene::Draw& draw, const SceneState& state);
+
+/// Draws its triangles with what is bound.
+void draw_elements(const GpuScene::Draw& draw);
 
 /// Copies the scene to the GPU; an empty one draws nothing. Throws FailureError.
 GpuScene upload(const Scene& scene);

@@ -1,20 +1,27 @@
 // A technique at work: fits the light's frustum, chooses the map's size, draws the map and the picture, frame after frame.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "analysis/law/texel_choice.h"
+#include "renderer/depth_pass.h"
 #include "renderer/frame_target.h"
 #include "renderer/gl/pass_timer.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/need_meter.h"
 #include "renderer/scene_state.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/view_passes.h"
 
 namespace stairstep {
+
+/// What frames leave out because nothing of it would be seen. The picture is the same with and without.
+struct Skips {
+    /// The lighting of surfaces that others hide.
+    bool hidden_surfaces = true;
+};
 
 struct ShadowSettings {
     TechniqueSettings technique;
@@ -28,6 +35,7 @@ struct ShadowSettings {
     /// For techniques whose radius differs from pixel to pixel.
     NeedStatistic statistic;
     TexelPatience patience;
+    Skips skips;
 };
 
 /// Times of a frame's passes.
@@ -36,13 +44,17 @@ struct FrameTime {
     gl::PassTime depth;
     /// What the technique makes of it ahead of the lighting.
     gl::PassTime prepare;
+    /// What the camera sees nearest.
+    gl::PassTime view_depth;
     gl::PassTime lighting;
     /// What the next frame needs.
     gl::PassTime need;
     /// The fit of the frustum and the choice of the size, on the CPU, ms.
     double fit_ms = 0;
 
-    double cpu_ms() const { return depth.cpu_ms + prepare.cpu_ms + lighting.cpu_ms + need.cpu_ms + fit_ms; }
+    double cpu_ms() const {
+        return depth.cpu_ms + prepare.cpu_ms + view_depth.cpu_ms + lighting.cpu_ms + need.cpu_ms + fit_ms;
+    }
 };
 
 class ShadowRenderer {
@@ -71,15 +83,12 @@ class ShadowRenderer {
     FrameTime draw_fitted(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
                           gl::PassTimer& timer);
 
-    const gl::Program& lighting(Show show, Light::Kind light);
-
     ShadowSettings settings_;
-    std::string name_;
     std::unique_ptr<ShadowTechnique> technique_;
     ShadowMap map_;
-    gl::Program depth_program_;
-    /// By what is shown and the light's kind; made when they are first needed.
-    std::array<std::array<gl::Program, 2>, 2> programs_;
+    DepthPass depth_pass_;
+    ViewDepthPass view_depth_pass_;
+    LightingPass lighting_pass_;
     std::optional<NeedMeter> meter_;
     TexelChoice choice_;
 };

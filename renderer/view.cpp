@@ -91,7 +91,7 @@ std::vector<glm::dvec3> points_of_interest(const Bounds& casters, const Directio
     return points;
 }
 
-glm::mat4 clip_from_world(const Camera& camera, double aspect) {
+glm::dmat4 clip_from_world(const Camera& camera, double aspect) {
     const auto& [right, up, back] = camera.basis;
     const glm::dmat4 view(
         glm::dvec4(right.x, up.x, back.x, 0), glm::dvec4(right.y, up.y, back.y, 0),
@@ -101,7 +101,7 @@ glm::mat4 clip_from_world(const Camera& camera, double aspect) {
     const double depth = camera.far / (camera.near - camera.far);
     const glm::dmat4 projection(glm::dvec4(zoom / aspect, 0, 0, 0), glm::dvec4(0, zoom, 0, 0),
                                 glm::dvec4(0, 0, depth, -1), glm::dvec4(0, 0, depth * camera.near, 0));
-    return glm::mat4(projection * view);
+    return projection * view;
 }
 
 double pixel_footprint(const Camera& camera, double distance, int height_px) {

@@ -52,7 +52,7 @@ Camera framing_camera(const std::vector<glm::dvec3>& points, const Direction& di
 std::vector<glm::dvec3> points_of_interest(const Bounds& casters, const Direction& light);
 
 /// Clip space with y up and depth from 0 (near) to 1 (far).
-glm::mat4 clip_from_world(const Camera& camera, double aspect);
+glm::dmat4 clip_from_world(const Camera& camera, double aspect);
 
 /// Side of a pixel at a distance along the view, world units.
 double pixel_footprint(const Camera& camera, double distance, int height_px);

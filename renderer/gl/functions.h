@@ -12,7 +12,7 @@
 // clang-format off
 #define STAIRSTEP_GL_FUNCTIONS(X) \
     X(AttachShader) X(BeginQuery) X(BindBuffer) X(BindBufferBase) X(BindFramebuffer) X(BindTextureUnit) \
-    X(BindVertexArray) X(BlitNamedFramebuffer) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) \
+    X(BindVertexArray) X(BlitNamedFramebuffer) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) X(DepthFunc) \
     X(ClipControl) X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateQueries) \
     X(CreateShader) X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) \
     X(DeleteQueries) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(Disable) X(DrawArrays) \

@@ -2,8 +2,9 @@
 //
 //     float visibility(Receiver receiver);      1 lit, 0 in shadow
 //
-// Ahead of it go the version and `const bool spot`: whether the light is a spot, known when the shader is compiled.
-// Texel space is shadow_map_shape.h's: x and y in texels of the shadow map, depth in [0, 1].
+// Ahead of it go the version, `const bool spot` (whether the light is a spot, known when the shader is compiled) and
+// steepness.glsl. Texel space is shadow_map_shape.h's: x and y in texels of the shadow map, depth in [0, 1]. Eye space has
+// the world's axes around the camera's eye.
 
 struct Receiver {
     vec2 texel;
@@ -29,63 +30,50 @@ uniform vec2 map_size;
 uniform vec2 map_scale;  // 1 / size of the texture
 const int kGuard = 2;
 
-// For world space shifted to the light's own origin: small numbers keep their precision.
-uniform vec3 light_origin;
-uniform mat4 texel_from_light;
-// What planes transform by: the inverse's transpose.
-uniform mat4 texel_plane_from_light;
+// Eye space: where a spot is.
+uniform vec3 light_from_eye;
+uniform mat4 texel_plane_from_eye;
 // Directional: to the light. Spot: against its axis.
 uniform vec3 light_back;
 // Cosines of the angles where a spot's light begins to fade and where it ends.
 uniform vec2 cone;
-// Parts of a texel that the rasteriser snaps vertices to, 2^-GL_SUBPIXEL_BITS.
-uniform float subpixel;
-uniform vec3 eye;
+// How far a caster's plane, or a receiver's place, may be from where it is, in texels: vertices snap to 2^-GL_SUBPIXEL_BITS of
+// one, and floats are rounded.
+uniform float misplaced;
 
-// Three numbers a triangle: its own normal, in the order the index buffer has them.
-layout(std430, binding = 1) readonly buffer FacetNormals { float facet_normals[]; };
-// The first triangle of this draw.
-uniform int first_triangle;
-uniform mat4 world_from_model;
+// From lighting.vert.
+in vec3 from_eye;
+in vec4 map_place;
+flat in vec3 facet;
+flat in vec2 facet_slope;
 
-// The normal of the triangle at hand, facing the viewer. Interpolated normals would tilt the receiver's plane out of
-// the surface; so would, slightly, derivatives of the interpolated position, which are off by some 1e-4: enough for
-// acne over a filter of 70 texels.
-vec3 facet_normal(vec3 world) {
-    int at = 3 * (first_triangle + gl_PrimitiveID);
-    vec3 normal = mat3(world_from_model) * vec3(facet_normals[at], facet_normals[at + 1], facet_normals[at + 2]);
-    return dot(normal, eye - world) < 0 ? -normal : normal;
-}
-
-vec3 to_light(vec3 world) { return spot ? normalize(light_origin - world) : light_back; }
+vec3 to_light() { return spot ? normalize(light_from_eye - from_eye) : light_back; }
 
 // Share of a spot's light that goes this way.
 float in_cone(vec3 to_light) { return spot ? smoothstep(cone.y, cone.x, dot(to_light, light_back)) : 1; }
 
-// The receiver at a surface point with this normal, which faces the light.
-Receiver receiver_at(vec3 world, vec3 normal, vec3 to_light) {
-    vec3 from_light = world - light_origin;
-    vec4 point = texel_from_light * vec4(from_light, 1);
-    vec3 texel = point.xyz / point.w;
-    // Steeper than 87° (1 : 20) half a subpixel moves the plane by more than a texel's side, and no light arrives.
-    normal += max(0.05 - dot(normal, to_light), 0) * to_light;
-    vec4 plane = texel_plane_from_light * vec4(normal, -dot(normal, from_light));
-    vec2 slope = -plane.xy / plane.z;
-
-    // The depth stored for a texel is that of the caster's plane, up to where the rasteriser moved its vertices (half
-    // a subpixel), and float rounding: some units in the last place of the position in texels, and of the depth.
+// The receiver at this pixel.
+Receiver receiver_here(vec3 to_light) {
+    vec3 texel = spot ? map_place.xyz / map_place.w : map_place.xyz;
+    vec2 slope = facet_slope;
+    if (spot) {
+        vec3 normal = no_steeper(facet, to_light);
+        vec4 plane = texel_plane_from_eye * vec4(normal, -dot(normal, from_eye));
+        slope = -plane.xy / plane.z;
+    }
+    // The depth stored for a texel is that of the caster's plane, up to where its vertices were moved, and rounding: some units
+    // in the last place of the depth.
     float steepness = abs(slope.x) + abs(slope.y);
-    float rounding = 16 * 1.2e-7 * map_size.x;
-    return Receiver(texel.xy, texel.z, slope, steepness * (subpixel + rounding) + 16 * 1.2e-7);
+    return Receiver(texel.xy, texel.z, slope, steepness * misplaced + 16 * 1.2e-7);
 }
 
 // Side of a texel in the light plane.
 uniform vec2 texel_side;
 
-// Visibility of the light at a surface point; 0 where its facet is turned away (it is in its own shadow, no map is needed
-// to know) and outside a spot's cone.
-float light_at(vec3 world, vec3 facet, vec3 to_light) {
-    Receiver receiver = receiver_at(world, facet, to_light);
+// Visibility of the light at this pixel; 0 where its facet is turned away (it is in its own shadow, no map is needed to know)
+// and outside a spot's cone.
+float light_here(vec3 to_light) {
+    Receiver receiver = receiver_here(to_light);
     // Here, as derivatives need all of a quad's pixels.
     vec2 across = dFdx(receiver.texel) * texel_side;
     vec2 up = dFdy(receiver.texel) * texel_side;

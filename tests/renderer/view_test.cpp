@@ -26,7 +26,7 @@ TEST(View, TheCameraFramesAllPointsAndFillsThePicture) {
     for (const double aspect : {0.5, 16.0 / 9}) {
         for (const double elevation : {5.0, 40.0, 90.0}) {
             const std::vector<glm::dvec3> points = points_of_interest(bounds, {-50, 45});
-            const glm::mat4 clip = clip_from_world(framing_camera(points, {30, elevation}, aspect, 1, 10), aspect);
+            const glm::mat4 clip(clip_from_world(framing_camera(points, {30, elevation}, aspect, 1, 10), aspect));
             double widest = 0;
             for (const glm::dvec3& point : points) {
                 const glm::vec4 p = clip * glm::vec4(point, 1);
@@ -44,7 +44,7 @@ TEST(View, TheCameraFramesAllPointsAndFillsThePicture) {
 TEST(View, APixelsFootprintIsAPixel) {
     const Camera camera = made::camera_down({0, 5, 0});
     const double pixel = pixel_footprint(camera, 5, 720);
-    const glm::vec4 p = clip_from_world(camera, 16.0 / 9) * glm::vec4(glm::vec3(pixel, 0, 0), 1);
+    const glm::vec4 p = glm::mat4(clip_from_world(camera, 16.0 / 9)) * glm::vec4(glm::vec3(pixel, 0, 0), 1);
     EXPECT_NEAR(p.x / p.w * 1280 / 2, 1, 1e-4);
 }
 

@@ -61,7 +61,7 @@ bool is_rigid(const glm::dmat4& m) {
 
 /// Whether a point is in a picture of 16:9.
 bool is_seen(const Camera& camera, const glm::dvec3& point) {
-    const glm::vec4 p = clip_from_world(camera, 16.0 / 9) * glm::vec4(point, 1);
+    const glm::vec4 p = glm::mat4(clip_from_world(camera, 16.0 / 9)) * glm::vec4(point, 1);
     return p.w > 0 && std::abs(p.x) < p.w && std::abs(p.y) < p.w && p.z > 0 && p.z < p.w;
 }
 
