@@ -28,8 +28,8 @@ void DepthRanges::reserve(const glm::ivec2& blocks) {
         const auto wanted = std::bit_ceil(static_cast<unsigned>(blocks[axis]));
         capacity_[axis] = std::max(capacity_[axis], static_cast<int>(wanted));
     }
-    blocks_ = gl::make_texture(GL_RG32F, capacity_.x, capacity_.y);
-    windows_ = gl::make_texture(GL_RG32F, capacity_.x + kBefore + 1, capacity_.y + kBefore + 1);
+    blocks_ = gl::make_texture(GL_RGBA32F, capacity_.x, capacity_.y);
+    windows_ = gl::make_texture(GL_RGBA32F, capacity_.x + kBefore + 1, capacity_.y + kBefore + 1);
     blocks_framebuffer_ = gl::make_framebuffer(blocks_.id(), 0);
     windows_framebuffer_ = gl::make_framebuffer(windows_.id(), 0);
 }

@@ -1,5 +1,10 @@
-// The nearest and the farthest depth in every window of a shadow map: what tells, with one look, that a whole filter is lit
-// or dark.
+// What lies in every window of a shadow map: what tells, with one look, that a whole filter is lit or dark.
+//
+// Of each window two bounds are kept: a plane that none of its casters lies before, and its farthest depth. The plane follows
+// the slope of what the window shows: a surface that the light meets at an angle isn't nearer than itself, and with a constant
+// bound every sloped floor would count as a penumbra. It is found in blocks of 4 × 4 texels from the smallest steps between
+// neighbours, as steps over edges are larger, and of the slopes of a window's blocks it takes the one whose bound lies farthest
+// back.
 //
 // Windows start at every fourth texel and are 12 texels wide, so that one holds all 8 × 8 texels that a law's box may touch
 // wherever it starts. Small maps make them nearly free: two passes, of a fetch and of half a fetch a texel.
@@ -31,7 +36,7 @@ class DepthRanges {
     gl::Program blocks_program_;
     gl::Program windows_program_;
     gl::VertexArray no_vertices_;
-    /// RG32F: nearest and farthest.
+    /// RGBA32F: the plane's change along x and y, per texel, and its depth at the centre; the farthest depth.
     gl::Texture blocks_;
     gl::Texture windows_;
     gl::Framebuffer blocks_framebuffer_;

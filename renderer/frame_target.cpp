@@ -34,9 +34,15 @@ FrameTarget make_frame_target(Show show, int width, int height, int samples) {
         target.depth = gl::make_texture(GL_DEPTH_COMPONENT32F, width, height);
         target.framebuffer = gl::make_framebuffer(target.colour.id(), target.depth.id());
         target.need = gl::make_texture(GL_R32F, width, height);
-        target.need_framebuffer = gl::make_framebuffer(target.colour.id(), target.depth.id(), target.need.id());
+        target.need_framebuffer = gl::make_framebuffer({target.colour.id(), target.need.id()}, target.depth.id());
+        target.planes = gl::make_texture(GL_RGBA32F, width, height);
+        target.materials = gl::make_texture(GL_RG32UI, width, height);
+        // Whole numbers can't be read through a filter.
+        gl::TextureParameteri(target.materials.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        gl::TextureParameteri(target.materials.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        target.surface_framebuffer =
+            gl::make_framebuffer({target.planes.id(), target.materials.id()}, target.depth.id());
     }
-    target.depth_framebuffer = gl::make_framebuffer(0, target.depth.id());
     return target;
 }
 

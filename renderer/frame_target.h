@@ -26,8 +26,11 @@ struct FrameTarget {
     /// Of one sample: the texel that each pixel needs (receiver.glsl), and a framebuffer with all three.
     gl::Texture need;
     gl::Framebuffer need_framebuffer;
-    /// The depth alone.
-    gl::Framebuffer depth_framebuffer;
+    /// Of one sample: each pixel's nearest surface (view_passes.h), and a framebuffer with both. Its triangle's plane in eye
+    /// space (32-bit floats); its normal and colour, packed (shaders/surface.glsl).
+    gl::Texture planes;
+    gl::Texture materials;
+    gl::Framebuffer surface_framebuffer;
 };
 
 /// samples ≥ 1 a pixel, for Show::colour alone: visibility is measured at pixel centres. Throws FailureError.

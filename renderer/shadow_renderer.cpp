@@ -82,14 +82,20 @@ FrameTime ShadowRenderer::draw_with(const ShadowMapShape& shape, const GpuScene&
         technique_->prepare(map_);
         time.prepare = timer.stop();
     }
-    if (settings_.skips.hidden_surfaces) {
-        timer.start();
-        view_depth_pass_.draw(scene, state, target);
-        time.view_depth = timer.stop();
-    }
+    // A surface of several samples can't be stored.
+    const bool stored = settings_.skips.hidden_surfaces && target.samples == 1;
     const bool with_need = meter_ && target.samples == 1;
+    if (stored) {
+        timer.start();
+        surface_pass_.draw(scene, state, target);
+        time.surfaces = timer.stop();
+    }
     timer.start();
-    lighting_pass_.draw(scene, state, *technique_, map_, target, {settings_.skips.hidden_surfaces, with_need});
+    if (stored) {
+        lighting_pass_.light_stored(scene, state, *technique_, map_, target, with_need);
+    } else {
+        lighting_pass_.draw_lit(scene, state, *technique_, map_, target, with_need);
+    }
     time.lighting = timer.stop();
     if (with_need) {
         timer.start();

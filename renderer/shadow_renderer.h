@@ -44,8 +44,8 @@ struct FrameTime {
     gl::PassTime depth;
     /// What the technique makes of it ahead of the lighting.
     gl::PassTime prepare;
-    /// What the camera sees nearest.
-    gl::PassTime view_depth;
+    /// What the camera sees nearest, where that is stored before it is lit.
+    gl::PassTime surfaces;
     gl::PassTime lighting;
     /// What the next frame needs.
     gl::PassTime need;
@@ -53,7 +53,7 @@ struct FrameTime {
     double fit_ms = 0;
 
     double cpu_ms() const {
-        return depth.cpu_ms + prepare.cpu_ms + view_depth.cpu_ms + lighting.cpu_ms + need.cpu_ms + fit_ms;
+        return depth.cpu_ms + prepare.cpu_ms + surfaces.cpu_ms + lighting.cpu_ms + need.cpu_ms + fit_ms;
     }
 };
 
@@ -87,7 +87,7 @@ class ShadowRenderer {
     std::unique_ptr<ShadowTechnique> technique_;
     ShadowMap map_;
     DepthPass depth_pass_;
-    ViewDepthPass view_depth_pass_;
+    SurfacePass surface_pass_;
     LightingPass lighting_pass_;
     std::optional<NeedMeter> meter_;
     TexelChoice choice_;

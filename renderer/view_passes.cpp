@@ -12,10 +12,14 @@ namespace {
 
 /// Linear; about 86 % grey as displayed.
 constexpr glm::vec3 kBackground(0.70f, 0.74f, 0.79f);
+/// Where a fading mesh begins to and has become the background: from the scene's middle, in its diagonals.
+constexpr glm::dvec2 kFade(1.2, 4);
 /// Share of a spot's cone over which its light fades.
 constexpr double kConeFade = 0.15;
 /// Units in the last place that a place in the map may be off by, after all matrices.
-constexpr double kRoundings = 16;
+constexpr double kMapRoundings = 16;
+/// The same of a place in eye space.
+constexpr double kEyeRoundings = 4;
 
 double aspect_of(const FrameTarget& target) {
     return static_cast<double>(target.width) / target.height;
@@ -38,28 +42,41 @@ glm::mat4 clip_from_eye(const Camera& camera, double aspect) {
     return glm::mat4(clip_from_world(centred, aspect));
 }
 
-/// How far a caster's plane or a receiver's place may be from where it is, texels: vertices snap to subpixels, and the largest
-/// number that a place in the map is a sum of is rounded.
-double misplaced_texels(const ShadowMapShape& shape, const glm::dvec3& eye) {
+/// How far a caster's plane or a receiver's place may be from where it is.
+struct Misplacement {
+    /// Across the light, texels: vertices snap to subpixels, and the largest number that a place is a sum of is rounded.
+    double texels = 0;
+    /// Along the light, stored depth; of a spot at depth 1, falling with the depth's square.
+    double depth = 0;
+};
+
+Misplacement misplacement(const ShadowMapShape& shape, const glm::dvec3& eye) {
+    constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
     GLint subpixel_bits = 0;
     gl::GetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits);
     const LightFrustum& frustum = shape.frustum;
-    const glm::dvec3 centre(0.5 * (frustum.low + frustum.high), 0);
-    const glm::dvec2 from_eye = frustum.kind == Light::Kind::directional
-                                    ? glm::dvec2(light_plane_point(frustum, eye) - centre)
-                                    : glm::dvec2(glm::length(eye - frustum.position) / frustum.farthest);
-    const glm::dvec2 far_texels = glm::abs(from_eye) / shape.texel();
+    const bool spot = frustum.kind == Light::Kind::spot;
+    const glm::dvec2 middle = 0.5 * (frustum.low + frustum.high);
+    const double from_light = spot ? glm::distance(eye, frustum.position) : 0;
+    const glm::dvec3 from_middle =
+        light_plane_point(frustum, eye) - glm::dvec3(middle, 0.5 * (frustum.nearest + frustum.farthest));
+    const double distance = spot ? from_light : glm::length(from_middle);
+    const glm::dvec2 sideways = spot ? glm::dvec2(from_light / frustum.farthest) : glm::abs(glm::dvec2(from_middle));
+    const glm::dvec2 eye_texels = sideways / shape.texel();
     const double largest =
-        std::max({static_cast<double>(shape.width), static_cast<double>(shape.height), far_texels.x, far_texels.y});
-    return std::ldexp(1.0, -subpixel_bits) + kRoundings * std::numeric_limits<float>::epsilon() * largest;
+        std::max({static_cast<double>(shape.width), static_cast<double>(shape.height), eye_texels.x, eye_texels.y});
+    const double depth_scale = (spot ? frustum.farthest * frustum.nearest : 1) / (frustum.farthest - frustum.nearest);
+    return {std::ldexp(1.0, -subpixel_bits) + kMapRoundings * kEpsilon * largest,
+            kEyeRoundings * kEpsilon * distance * depth_scale};
 }
 
-/// What shaders/lighting.vert and shaders/receiver.glsl need to place a surface point in the map.
-void set_receiver_uniforms(const gl::Program& program, const ShadowMap& map, const SceneState& state) {
+/// What shaders/receiver.glsl needs to place a surface point in the map.
+void set_receiver_uniforms(const gl::Program& program, const ShadowMap& map, const SceneState& state, int height_px) {
     const Light& light = state.light;
     const glm::dvec3& eye = state.camera.eye;
     const glm::dmat4 texel_from_eye = texel_from_world(map.shape) * translation(eye);
     const double cone = light.cone_deg * std::numbers::pi / 180;
+    const double pixel = pixel_footprint(state.camera, 1, height_px);
     gl::set_uniform(program, "map_size", glm::vec2(map.shape.width, map.shape.height));
     gl::set_uniform(program, "map_scale", glm::vec2(1.0f / static_cast<float>(map.texture_side())));
     gl::set_uniform(program, "texel_side", glm::vec2(map.shape.texel()));
@@ -68,8 +85,31 @@ void set_receiver_uniforms(const gl::Program& program, const ShadowMap& map, con
     gl::set_uniform(program, "texel_plane_from_eye", glm::mat4(glm::transpose(glm::inverse(texel_from_eye))));
     gl::set_uniform(program, "light_back", glm::vec3(light.basis.back));
     gl::set_uniform(program, "cone", glm::vec2(std::cos(cone * (1 - kConeFade)), std::cos(cone)));
-    gl::set_uniform(program, "misplaced", static_cast<float>(misplaced_texels(map.shape, eye)));
+    const Misplacement misplaced = misplacement(map.shape, eye);
+    gl::set_uniform(program, "misplaced", glm::vec2(misplaced.texels, misplaced.depth));
+    gl::set_uniform(program, "view_back", glm::vec3(state.camera.basis.back));
+    gl::set_uniform(program, "pixel_area", static_cast<float>(pixel * pixel));
 }
+
+/// What shaders/surface_stored.glsl needs to know where pixels look.
+void set_ray_uniforms(const gl::Program& program, const Camera& camera, const FrameTarget& target) {
+    const double pixel = pixel_footprint(camera, 1, target.height);
+    const auto& [right, up, back] = camera.basis;
+    gl::set_uniform(
+        program, "ray_corner",
+        glm::vec3(-back -
+                  0.5 * pixel * (static_cast<double>(target.width) * right + static_cast<double>(target.height) * up)));
+    gl::set_uniform(program, "ray_right", glm::vec3(pixel * right));
+    gl::set_uniform(program, "ray_up", glm::vec3(pixel * up));
+}
+
+void set_lighting_uniforms(const gl::Program& program, const GpuScene& scene, const SceneState& state) {
+    gl::set_uniform(program, "background", kBackground);
+    gl::set_uniform(program, "middle_from_eye", glm::vec3(scene.middle - state.camera.eye));
+    gl::set_uniform(program, "fade_range", glm::vec2(kFade * scene.diagonal));
+}
+
+constexpr std::string_view kVersion = "#version 450 core\n";
 
 /// A shader that knows its light's kind doesn't compute the other's.
 std::string_view preamble(Light::Kind kind) {
@@ -77,83 +117,103 @@ std::string_view preamble(Light::Kind kind) {
                                      : "#version 450 core\nconst bool spot = false;\n";
 }
 
-const gl::Framebuffer& framebuffer_of(const FrameTarget& target, bool with_need) {
-    if (target.samples > 1) return target.multisample_framebuffer;
-    return with_need ? target.need_framebuffer : target.framebuffer;
-}
-
-void clear_depths(const gl::Framebuffer& framebuffer) {
-    const float farthest = 1;
-    gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &farthest);
-}
-
-}  // namespace
-
-ViewDepthPass::ViewDepthPass()
-    : program_(gl::make_program("view depth", {embedded::view_depth_vert}, {embedded::depth_frag})) {}
-
-void ViewDepthPass::draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target) const {
-    const gl::Framebuffer& framebuffer = target.depth_framebuffer;
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
-    gl::Viewport(0, 0, target.width, target.height);
-    clear_depths(framebuffer);
-    gl::Enable(GL_DEPTH_TEST);
-    // Of surfaces in the same place the last one shows, with this pass and without.
-    gl::DepthFunc(GL_LEQUAL);
-    gl::set_uniform(program_, "clip_from_eye", clip_from_eye(state.camera, aspect_of(target)));
-    gl::UseProgram(program_.id());
-    gl::BindVertexArray(scene.vertex_array.id());
-    for (const GpuScene::Draw& draw : scene.draws) {
-        gl::set_uniform(program_, "eye_from_model", eye_from_model(draw, state));
-        draw_elements(draw);
-    }
-    gl::DepthFunc(GL_LESS);
-}
-
-const gl::Program& LightingPass::program(const ShadowTechnique& technique, Show show, Light::Kind light) {
-    gl::Program& program = programs_[static_cast<size_t>(show)][static_cast<size_t>(light)];
-    if (program.id()) return program;
-    const bool colour = show == Show::colour;
-    gl::ShaderParts parts{preamble(light), embedded::steepness_glsl, embedded::receiver_glsl};
-    for (const std::string_view part : technique.shader()) parts.push_back(part);
-    parts.push_back(colour ? embedded::lighting_frag : embedded::visibility_frag);
-    return program = gl::make_program(name_ + (colour ? " lighting" : " visibility"),
-                                      {preamble(light), embedded::steepness_glsl, embedded::lighting_vert}, parts);
-}
-
-void LightingPass::draw(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
-                        const ShadowMap& map, const FrameTarget& target, const Options& options) {
-    const gl::Program& program = this->program(technique, target.show, state.light.kind);
-    gl::set_uniform(program, "clip_from_eye", clip_from_eye(state.camera, aspect_of(target)));
-    gl::set_uniform(program, "background", kBackground);
-    gl::set_uniform(program, "middle_from_eye", glm::vec3(scene.middle - state.camera.eye));
-    gl::set_uniform(program, "fade_near", static_cast<float>(1.2 * scene.diagonal));
-    set_receiver_uniforms(program, map, state);
-    technique.bind(program, map);
-
-    const gl::Framebuffer& framebuffer = framebuffer_of(target, options.with_need);
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
-    gl::Viewport(0, 0, target.width, target.height);
+/// Where the lighting goes, cleared to what shows nothing.
+const gl::Framebuffer& cleared_framebuffer(const FrameTarget& target, bool need) {
+    const gl::Framebuffer& framebuffer = target.samples > 1 ? target.multisample_framebuffer
+                                         : need             ? target.need_framebuffer
+                                                            : target.framebuffer;
     const glm::vec4 background = target.show == Show::colour ? glm::vec4(kBackground, 1) : glm::vec4(1);
     const glm::vec4 no_need(1e30f);
+    const float farthest = 1;
     gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 0, &background.x);
-    if (options.with_need) gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 1, &no_need.x);
-    if (!options.depths_are_there) clear_depths(framebuffer);
+    if (need) gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 1, &no_need.x);
+    gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &farthest);
+    return framebuffer;
+}
+
+void draw_surfaces(const gl::Program& program, const GpuScene& scene, const SceneState& state,
+                   const FrameTarget& target) {
+    gl::Viewport(0, 0, target.width, target.height);
     gl::Enable(GL_DEPTH_TEST);
-    gl::DepthFunc(options.depths_are_there ? GL_EQUAL : GL_LEQUAL);
-    gl::Enable(GL_FRAMEBUFFER_SRGB);
+    gl::set_uniform(program, "clip_from_eye", clip_from_eye(state.camera, aspect_of(target)));
     gl::UseProgram(program.id());
     gl::BindVertexArray(scene.vertex_array.id());
-    gl::BindTextureUnit(0, map.memory.depth.id());
     for (const GpuScene::Draw& draw : scene.draws) {
         gl::set_uniform(program, "eye_from_model", eye_from_model(draw, state));
         gl::set_uniform(program, "base_colour", draw.material.base_colour);
         gl::set_uniform(program, "textured", draw.material.texture ? 1 : 0);
-        gl::set_uniform(program, "fade_far", draw.fades ? static_cast<float>(4 * scene.diagonal) : -1.0f);
+        gl::set_uniform(program, "fading", draw.fades ? 1 : 0);
         if (draw.material.texture) gl::BindTextureUnit(1, scene.textures[*draw.material.texture].id());
         draw_elements(draw);
     }
-    gl::DepthFunc(GL_LESS);
+}
+
+}  // namespace
+
+SurfacePass::SurfacePass()
+    : program_(
+          gl::make_program("surface", {embedded::surface_vert},
+                           {kVersion, embedded::surface_glsl, embedded::surface_drawn_glsl, embedded::surface_frag})) {}
+
+void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target) const {
+    const glm::vec4 nothing(0);
+    const float farthest = 1;
+    // Where there is no plane, the material is never shown.
+    gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_COLOR, 0, &nothing.x);
+    gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_DEPTH, 0, &farthest);
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.surface_framebuffer.id());
+    draw_surfaces(program_, scene, state, target);
+}
+
+LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertices_(gl::make_vertex_array()) {}
+
+const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show,
+                                         Light::Kind light) {
+    gl::Program& program =
+        programs_[static_cast<size_t>(source)][static_cast<size_t>(show)][static_cast<size_t>(light)];
+    if (program.id()) return program;
+    const bool drawn = source == Source::drawn;
+    const bool colour = show == Show::colour;
+    gl::ShaderParts parts{preamble(light), embedded::surface_glsl,
+                          drawn ? embedded::surface_drawn_glsl : embedded::surface_stored_glsl,
+                          embedded::receiver_glsl};
+    for (const std::string_view part : technique.shader()) parts.push_back(part);
+    parts.push_back(colour ? embedded::lighting_frag : embedded::visibility_frag);
+    return program = gl::make_program(name_ + (colour ? " lighting" : " visibility"),
+                                      {drawn ? embedded::surface_vert : embedded::fullscreen_vert}, parts);
+}
+
+void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
+                                const ShadowMap& map, const FrameTarget& target, bool need) {
+    const gl::Program& program = this->program(Source::stored, technique, target.show, state.light.kind);
+    set_lighting_uniforms(program, scene, state);
+    set_receiver_uniforms(program, map, state, target.height);
+    set_ray_uniforms(program, state.camera, target);
+    technique.bind(program, map);
+    // Every pixel is written: nothing to clear.
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, (need ? target.need_framebuffer : target.framebuffer).id());
+    gl::Viewport(0, 0, target.width, target.height);
+    gl::Disable(GL_DEPTH_TEST);
+    gl::Enable(GL_FRAMEBUFFER_SRGB);
+    gl::UseProgram(program.id());
+    gl::BindVertexArray(no_vertices_.id());
+    gl::BindTextureUnit(0, map.memory.depth.id());
+    gl::BindTextureUnit(4, target.planes.id());
+    gl::BindTextureUnit(5, target.materials.id());
+    gl::DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
+                            const ShadowMap& map, const FrameTarget& target, bool need) {
+    const gl::Program& program = this->program(Source::drawn, technique, target.show, state.light.kind);
+    set_lighting_uniforms(program, scene, state);
+    set_receiver_uniforms(program, map, state, target.height);
+    technique.bind(program, map);
+    const gl::Framebuffer& framebuffer = cleared_framebuffer(target, need);
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
+    gl::Enable(GL_FRAMEBUFFER_SRGB);
+    gl::BindTextureUnit(0, map.memory.depth.id());
+    draw_surfaces(program, scene, state, target);
     if (target.samples > 1) {
         gl::BlitNamedFramebuffer(framebuffer.id(), target.framebuffer.id(), 0, 0, target.width, target.height, 0, 0,
                                  target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -1,4 +1,8 @@
-// What the camera sees: which surface is nearest, and that surface lit through a shadow map.
+// What the camera sees, lit through a shadow map: drawn at once, or stored first and then lit.
+//
+// Stored: of each pixel the plane of its nearest triangle (eye space, 32-bit floats: where the pixel's ray meets it is the
+// surface point, as exact as the triangle), its normal and colour. The lighting then runs once a pixel, over whole blocks of
+// pixels: no surface that another one hides is lit, and small triangles don't leave most of a block's lanes idle.
 #pragma once
 
 #include <array>
@@ -12,13 +16,12 @@
 
 namespace stairstep {
 
-/// A pass over the depths alone, after which the lighting's costly shader runs for no surface that another one hides.
-class ViewDepthPass {
+class SurfacePass {
   public:
     /// Throws FailureError.
-    ViewDepthPass();
+    SurfacePass();
 
-    /// Clears the target's depths and draws the scene's.
+    /// Stores the nearest surfaces in a target of one sample.
     void draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target) const;
 
   private:
@@ -27,27 +30,26 @@ class ViewDepthPass {
 
 class LightingPass {
   public:
-    /// `name` stands for the technique in errors.
-    explicit LightingPass(std::string name) : name_(std::move(name)) {}
+    /// `name` stands for the technique in errors. Throws FailureError.
+    explicit LightingPass(std::string name);
 
-    struct Options {
-        /// Whether the target holds the depths of ViewDepthPass already.
-        bool depths_are_there = false;
-        /// Whether pixels write the texel they need; for targets of one sample.
-        bool with_need = false;
-    };
+    /// Lights the surfaces that SurfacePass has stored. With a `need`, pixels write the texel they need. Throws FailureError
+    /// for a shader that the driver doesn't take.
+    void light_stored(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
+                      const ShadowMap& map, const FrameTarget& target, bool need);
 
-    /// Draws the scene as the camera sees it, lit through the technique. Throws FailureError for a shader that the driver
-    /// doesn't take.
-    void draw(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique, const ShadowMap& map,
-              const FrameTarget& target, const Options& options);
+    /// Draws the scene and lights each surface as it is drawn.
+    void draw_lit(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
+                  const ShadowMap& map, const FrameTarget& target, bool need);
 
   private:
-    const gl::Program& program(const ShadowTechnique& technique, Show show, Light::Kind light);
+    enum class Source { drawn, stored };
+    const gl::Program& program(Source source, const ShadowTechnique& technique, Show show, Light::Kind light);
 
     std::string name_;
-    /// By what is shown and the light's kind; made when they are first needed.
-    std::array<std::array<gl::Program, 2>, 2> programs_;
+    gl::VertexArray no_vertices_;
+    /// By Source, Show and the light's kind; made when they are first needed.
+    std::array<std::array<std::array<gl::Program, 2>, 2>, 2> programs_;
 };
 
 }  // namespace stairstep

@@ -12,14 +12,14 @@
 // clang-format off
 #define STAIRSTEP_GL_FUNCTIONS(X) \
     X(AttachShader) X(BeginQuery) X(BindBuffer) X(BindBufferBase) X(BindFramebuffer) X(BindTextureUnit) \
-    X(BindVertexArray) X(BlitNamedFramebuffer) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) X(DepthFunc) \
+    X(BindVertexArray) X(BlitNamedFramebuffer) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) \
     X(ClipControl) X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateQueries) \
     X(CreateShader) X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) \
     X(DeleteQueries) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(Disable) X(DrawArrays) \
     X(DrawElements) X(Enable) X(EnableVertexArrayAttrib) X(EndQuery) X(Finish) X(GenerateTextureMipmap) X(GetError) \
     X(GetIntegerv) X(GetNamedBufferSubData) X(GetProgramInfoLog) X(GetProgramiv) X(GetQueryObjectui64v) \
     X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage) X(GetUniformLocation) X(LinkProgram) \
-    X(NamedBufferStorage) X(NamedFramebufferDrawBuffer) X(NamedFramebufferDrawBuffers) X(NamedFramebufferReadBuffer) \
+    X(NamedBufferStorage) X(NamedFramebufferDrawBuffers) X(NamedFramebufferReadBuffer) \
     X(NamedFramebufferTexture) X(PixelStorei) X(ProgramUniform1f) X(ProgramUniform1i) X(ProgramUniform2f) \
     X(ProgramUniform3f) X(ProgramUniform4fv) X(ProgramUniformMatrix3fv) \
     X(ProgramUniformMatrix4fv) X(Scissor) X(ShaderSource) X(TextureParameterfv) \

@@ -69,26 +69,29 @@ Buffer make_read_buffer(size_t bytes) {
     return buffer;
 }
 
-Framebuffer make_framebuffer(GLuint colour_texture, GLuint depth_texture, GLuint second_colour_texture) {
+Framebuffer make_framebuffer(std::span<const GLuint> colour_textures, GLuint depth_texture) {
     GLuint id = 0;
     CreateFramebuffers(1, &id);
     Framebuffer framebuffer(id);
-    const GLenum colour = colour_texture ? GL_COLOR_ATTACHMENT0 : GL_NONE;
-    if (colour_texture) NamedFramebufferTexture(id, GL_COLOR_ATTACHMENT0, colour_texture, 0);
-    if (depth_texture) NamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth_texture, 0);
-    if (second_colour_texture) {
-        constexpr std::array<GLenum, 2> kBoth{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-        NamedFramebufferTexture(id, GL_COLOR_ATTACHMENT1, second_colour_texture, 0);
-        NamedFramebufferDrawBuffers(id, static_cast<GLsizei>(kBoth.size()), kBoth.data());
-    } else {
-        NamedFramebufferDrawBuffer(id, colour);
+    std::vector<GLenum> buffers;
+    for (const GLuint texture : colour_textures) {
+        buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
+        NamedFramebufferTexture(id, buffers.back(), texture, 0);
     }
-    NamedFramebufferReadBuffer(id, colour);
+    if (buffers.empty()) buffers.push_back(GL_NONE);
+    if (depth_texture) NamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth_texture, 0);
+    NamedFramebufferDrawBuffers(id, static_cast<GLsizei>(buffers.size()), buffers.data());
+    NamedFramebufferReadBuffer(id, buffers.front());
     if (CheckNamedFramebufferStatus(id, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         throw FailureError("OpenGL", "the driver can't draw into this kind of framebuffer",
                            "use fewer --samples or a smaller picture");
     }
     return framebuffer;
+}
+
+Framebuffer make_framebuffer(GLuint colour_texture, GLuint depth_texture) {
+    const std::span colours(&colour_texture, colour_texture ? 1 : 0);
+    return make_framebuffer(colours, depth_texture);
 }
 
 Query make_timer_query() {

@@ -75,7 +75,13 @@ Buffer make_buffer(std::span<const std::byte> content);
 VertexArray make_vertex_array();
 
 /// A framebuffer that draws into these; 0 stands for none. Throws if the driver finds it incomplete.
-Framebuffer make_framebuffer(GLuint colour_texture, GLuint depth_texture, GLuint second_colour_texture = 0);
+Framebuffer make_framebuffer(GLuint colour_texture, GLuint depth_texture);
+
+/// A framebuffer that draws into several colours, at most 8, at once.
+Framebuffer make_framebuffer(std::span<const GLuint> colour_textures, GLuint depth_texture);
+inline Framebuffer make_framebuffer(std::initializer_list<GLuint> colour_textures, GLuint depth_texture) {
+    return make_framebuffer(std::span(colour_textures.begin(), colour_textures.size()), depth_texture);
+}
 
 /// A buffer of this many bytes that GL writes, and that is read back.
 Buffer make_read_buffer(size_t bytes);

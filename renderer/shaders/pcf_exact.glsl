@@ -14,11 +14,7 @@ float visibility(Receiver receiver) {
     vec2 begin = low - first;
     vec2 end = begin + 2 * filter_radius;
 
-    int alike = 0;
-    if (with_ranges != 0) {
-        vec2 half_width = vec2(gathers_per_side);
-        alike = all_alike(receiver, first + half_width, half_width, range_from(first + kGuard));
-    }
+    int alike = with_ranges != 0 ? all_alike(receiver, first, vec2(2 * gathers_per_side), vec2(kGuard)) : 0;
     // A loop that isn't entered costs nothing, where a branch around one may be flattened.
     int gathers = alike == 0 ? gathers_per_side : 0;
 

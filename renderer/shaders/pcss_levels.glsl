@@ -60,8 +60,7 @@ vec2 blocked_and_depth(Receiver receiver, int level, vec2 radius) {
 
     // All lit: nothing to add up. A loop that isn't entered costs nothing, where a branch around one may be flattened.
     bool in_window = with_ranges != 0 && max(gathers.x, gathers.y) <= 4;
-    vec2 range = range_from(place.xy + first);
-    if (in_window && all_alike(receiver, first + vec2(gathers), vec2(gathers), range) > 0) gathers = ivec2(0);
+    if (in_window && all_alike(receiver, first, 2 * vec2(gathers), place.xy) > 0) gathers = ivec2(0);
 
     // The first four texels share a corner at first + 1; textureGather returns them from the upper left clockwise.
     vec2 corner = first + 1;

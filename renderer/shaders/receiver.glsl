@@ -2,9 +2,9 @@
 //
 //     float visibility(Receiver receiver);      1 lit, 0 in shadow
 //
-// Ahead of it go the version, `const bool spot` (whether the light is a spot, known when the shader is compiled) and
-// steepness.glsl. Texel space is shadow_map_shape.h's: x and y in texels of the shadow map, depth in [0, 1]. Eye space has
-// the world's axes around the camera's eye.
+// Ahead of it go the version and `const bool spot`: whether the light is a spot, known when the shader is compiled. Texel space
+// is shadow_map_shape.h's: x and y in texels of the shadow map, depth in [0, 1]. Eye space has the world's axes around the
+// camera's eye: small numbers keep their precision, wherever the world's origin is.
 
 struct Receiver {
     vec2 texel;
@@ -32,55 +32,64 @@ const int kGuard = 2;
 
 // Eye space: where a spot is.
 uniform vec3 light_from_eye;
+uniform mat4 texel_from_eye;
+// What planes transform by: the inverse's transpose.
 uniform mat4 texel_plane_from_eye;
 // Directional: to the light. Spot: against its axis.
 uniform vec3 light_back;
 // Cosines of the angles where a spot's light begins to fade and where it ends.
 uniform vec2 cone;
-// How far a caster's plane, or a receiver's place, may be from where it is, in texels: vertices snap to 2^-GL_SUBPIXEL_BITS of
-// one, and floats are rounded.
-uniform float misplaced;
+// How far a caster's plane, or a receiver's place, may be from where it is: in texels (vertices snap to 2^-GL_SUBPIXEL_BITS of
+// one, and floats are rounded), and in stored depth (of a spot at depth 1, falling with the depth's square).
+uniform vec2 misplaced;
 
-// From lighting.vert.
-in vec3 from_eye;
-in vec4 map_place;
-flat in vec3 facet;
-flat in vec2 facet_slope;
+// Side of a texel in the light plane.
+uniform vec2 texel_side;
+// Against the view, and the area of a pixel at depth 1 along it.
+uniform vec3 view_back;
+uniform float pixel_area;
 
-vec3 to_light() { return spot ? normalize(light_from_eye - from_eye) : light_back; }
+vec3 to_light(vec3 from_eye) { return spot ? normalize(light_from_eye - from_eye) : light_back; }
 
 // Share of a spot's light that goes this way.
 float in_cone(vec3 to_light) { return spot ? smoothstep(cone.y, cone.x, dot(to_light, light_back)) : 1; }
 
-// The receiver at this pixel.
-Receiver receiver_here(vec3 to_light) {
-    vec3 texel = spot ? map_place.xyz / map_place.w : map_place.xyz;
-    vec2 slope = facet_slope;
-    if (spot) {
-        vec3 normal = no_steeper(facet, to_light);
-        vec4 plane = texel_plane_from_eye * vec4(normal, -dot(normal, from_eye));
-        slope = -plane.xy / plane.z;
-    }
+// The receiver at a surface point with this normal, which faces the light.
+Receiver receiver_at(vec3 from_eye, vec3 normal, vec3 to_light) {
+    vec4 point = texel_from_eye * vec4(from_eye, 1);
+    vec3 texel = spot ? point.xyz / point.w : point.xyz;
+    // Steeper than 87° (1 : 20) half a subpixel moves the plane by more than a texel's side, and no light arrives.
+    normal += max(0.05 - dot(normal, to_light), 0) * to_light;
+    vec3 plane = mat3(texel_plane_from_eye) * normal;
+    if (spot) plane -= dot(normal, from_eye) * texel_plane_from_eye[3].xyz;
+    vec2 slope = -plane.xy / plane.z;
     // The depth stored for a texel is that of the caster's plane, up to where its vertices were moved, and rounding: some units
     // in the last place of the depth.
     float steepness = abs(slope.x) + abs(slope.y);
-    return Receiver(texel.xy, texel.z, slope, steepness * misplaced + 16 * 1.2e-7);
+    float depth_error = spot ? misplaced.y / (point.w * point.w) : misplaced.y;
+    return Receiver(texel.xy, texel.z, slope, steepness * misplaced.x + depth_error + 16 * 1.2e-7);
 }
 
-// Side of a texel in the light plane.
-uniform vec2 texel_side;
+// `footprint` at a surface point: its pixel's area on the surface is pixel_area·z³/|n·p|, z being p's depth along the view. As a
+// spot sees it, in tangents, it is smaller by depth³/(n·(p − light)).
+float footprint_at(vec3 from_eye, vec3 facet, vec3 to_light) {
+    float depth = -dot(view_back, from_eye);
+    float area = pixel_area * depth * depth * depth / max(-dot(facet, from_eye), 1e-30);
+    if (spot) {
+        vec3 from_light = from_eye - light_from_eye;
+        float light_depth = max(-dot(light_back, from_light), 1e-30);
+        area *= max(-dot(facet, from_light), 0) / (light_depth * light_depth * light_depth);
+        area /= max(dot(facet, to_light), 0.05);
+    }
+    return sqrt(area / 2);
+}
 
-// Visibility of the light at this pixel; 0 where its facet is turned away (it is in its own shadow, no map is needed to know)
-// and outside a spot's cone.
-float light_here(vec3 to_light) {
-    Receiver receiver = receiver_here(to_light);
-    // Here, as derivatives need all of a quad's pixels.
-    vec2 across = dFdx(receiver.texel) * texel_side;
-    vec2 up = dFdy(receiver.texel) * texel_side;
-    float facing = dot(facet, to_light);
-    footprint = sqrt(abs(across.x * up.y - across.y * up.x) / max(facing, 0.05) / 2);
-    if (facing <= 0 || in_cone(to_light) <= 0) return 0;
-    return visibility(receiver);
+// Visibility of the light at a surface point; 0 where its facet is turned away (it is in its own shadow, no map is needed to
+// know) and outside a spot's cone.
+float light_at(vec3 from_eye, vec3 facet, vec3 to_light) {
+    if (dot(facet, to_light) <= 0 || in_cone(to_light) <= 0) return 0;
+    footprint = footprint_at(from_eye, facet, to_light);
+    return visibility(receiver_at(from_eye, facet, to_light));
 }
 
 // Depth of the receiver's plane at four points of the map, less what rounding may have added: what the depths stored

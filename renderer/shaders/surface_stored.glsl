@@ -1,0 +1,19 @@
+// The surface at this pixel, as surface.frag has stored it. surface.glsl goes before.
+
+layout(binding = 4) uniform sampler2D planes;
+layout(binding = 5) uniform usampler2D materials;
+
+// The ray through pixel (0, 0)'s lower left corner, eye space, one unit deep along the view, and how it changes per pixel.
+uniform vec3 ray_corner;
+uniform vec3 ray_right;
+uniform vec3 ray_up;
+
+Surface surface_here() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 plane = texelFetch(planes, pixel, 0);
+    vec3 ray = ray_corner + gl_FragCoord.x * ray_right + gl_FragCoord.y * ray_up;
+    uvec2 material = texelFetch(materials, pixel, 0).rg;
+    float along = plane.xyz == vec3(0) ? 1 : plane.w / dot(plane.xyz, ray);
+    return Surface(along * ray, plane.xyz, unpacked_normal(material), unpacked_base_colour(material),
+                   (material.y >> 30) != 0u);
+}
