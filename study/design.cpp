@@ -21,11 +21,16 @@ std::vector<int> latin_square_row(int size, int row) {
     return order;
 }
 
-/// A list that is not empty, holds nothing twice, and only what `is_good` allows.
+/// Each texel size is a track with an engine of its own in memory.
+constexpr size_t kMostValues = 100;
+
+/// A list that is not empty, has at most kMostValues, none of them twice, and holds only what `is_good`
+/// allows.
 template <typename T, typename Require, typename IsGood>
 void require_list(const Require& require, const std::vector<T>& values, const char* field, const char* allowed,
                   const IsGood& is_good) {
     require(!values.empty(), field, "is empty", "name at least one");
+    require(values.size() <= kMostValues, field, "holds over 100 values", "no observer has time for so many");
     for (auto value = values.begin(); value != values.end(); ++value) {
         require(is_good(*value), field, std::string("holds a value that isn't ") + allowed, "correct or remove it");
         require(std::find(values.begin(), value, *value) == value, field, "holds a value twice",

@@ -69,7 +69,7 @@ struct Design {
     std::optional<Viewing> viewing;
 };
 
-/// Throws InputError naming the first field that is out of its range: an empty list, a condition twice, a share or
+/// Throws InputError naming the first field that is out of its range: an empty list or one of over 100, a condition twice, a share or
 /// probability that can't be. `source` says where the design comes from.
 void require_valid(const Design& design, const std::string& source = "design");
 

@@ -3,9 +3,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "stimuli/error.h"
 #include "stimuli/io/csv.h"
+#include "stimuli/io/utf8.h"
 #include "stimuli/number.h"
 
 namespace stairstep {
@@ -42,13 +44,13 @@ class TrialReader {
 
     Trial trial(size_t row) const {
         Trial trial;
-        trial.observer = table_.text(row, observer_);
+        trial.observer = utf8(row, observer_);
         if (trial.observer.empty()) table_.reject(row, observer_, "is empty", "name the observer");
-        trial.condition = {pattern(row), kernel(row), contrast(row), positive(row, texel_px_)};
-        trial.radius_px = positive(row, radius_px_);
+        trial.condition = {pattern(row), kernel(row), contrast(row), length(row, texel_px_)};
+        trial.radius_px = length(row, radius_px_);
         trial.stimulus = judgement(row, stimulus_);
         trial.response = judgement(row, response_);
-        if (const auto column = table_.find_column("study")) trial.study = table_.text(row, *column);
+        if (const auto column = table_.find_column("study")) trial.study = utf8(row, *column);
         trial.suggested_radius_px = optional_number(row, "suggested_radius_px", trial.radius_px);
         trial.response_time_s = optional_number(row, "response_time_s", 0);
         trial.session = optional_count(row, "session");
@@ -87,6 +89,24 @@ class TrialReader {
         const double value = table_.number(row, column);
         if (!(value > 0)) table_.reject(row, column, "must be above 0", "write for example 10");
         return value;
+    }
+
+    /// In the range of a normal float, so that ratios of two are finite, and none is 0.
+    double length(size_t row, size_t column) const {
+        using Limits = std::numeric_limits<float>;
+        const double value = positive(row, column);
+        if (value < Limits::min() || value > Limits::max()) {
+            table_.reject(row, column, "is out of range", "write a number of pixels, for example 10");
+        }
+        return value;
+    }
+
+    /// Names go into JSON, which holds nothing else.
+    const std::string& utf8(size_t row, size_t column) const {
+        if (!is_utf8(table_.text(row, column))) {
+            table_.reject(row, column, "is not UTF-8", "save the table in that encoding");
+        }
+        return table_.text(row, column);
     }
 
     Judgement judgement(size_t row, size_t column) const {

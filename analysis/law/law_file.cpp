@@ -163,8 +163,12 @@ Law read_law(const std::filesystem::path& path) {
     return law_from(read_json(path), path.string());
 }
 
+Law law_from_json(std::string_view text, const std::string& source) {
+    return law_from(parse_json(text, source), source);
+}
+
 Law kreuzer2017_law() {
-    return law_from(parse_json(embedded::kreuzer2017_json, "kreuzer2017.json"), "kreuzer2017.json");
+    return law_from_json(embedded::kreuzer2017_json, "kreuzer2017.json");
 }
 
 Law law_named(const std::string& path_or_name) {
@@ -175,7 +179,7 @@ void write_law(const std::filesystem::path& path, const Law& law) {
     write_law(path, law, ordered_json::object());
 }
 
-void write_law(const std::filesystem::path& path, const Law& law, const ordered_json& more) {
+ordered_json to_json(const Law& law) {
     ordered_json file{{"format", kFormat},
                       {"kernel", name(law.kernel)},
                       {"slope", law.slope},
@@ -191,6 +195,11 @@ void write_law(const std::filesystem::path& path, const Law& law, const ordered_
     if (!law.slope_method.empty()) file["slope_method"] = law.slope_method;
     if (!law.comparisons.empty()) file["comparisons"] = list_of(law.comparisons);
     if (!law.criteria.empty()) file["criteria"] = list_of(law.criteria);
+    return file;
+}
+
+void write_law(const std::filesystem::path& path, const Law& law, const ordered_json& more) {
+    ordered_json file = to_json(law);
     for (const auto& [key, value] : more.items()) file[key] = value;
     require_finite(file, "law", path.string());
     write_json(path, file);

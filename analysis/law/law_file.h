@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/law/law_statistics.h"
@@ -82,11 +83,17 @@ struct Law {
 /// out of range, or another format than "stairstep-law/1".
 Law read_law(const std::filesystem::path& path);
 
+/// As `read_law`, from text; `source` stands for the file's name in errors.
+Law law_from_json(std::string_view text, const std::string& source);
+
 /// The law that ships: Kreuzer's c = 3.47. The thesis doesn't name its kernel's shape; `box` is assumed.
 Law kreuzer2017_law();
 
 /// `read_law`, or the one that ships for the name "kreuzer2017".
 Law law_named(const std::string& path_or_name);
+
+/// What `write_law` writes, whose numbers it checks.
+nlohmann::ordered_json to_json(const Law& law);
 
 /// Writes a law, whole or not at all. Throws FailureError, also for a law with a number that isn't finite: no such number
 /// reaches a file.

@@ -30,6 +30,13 @@ void end_row(int, void* data) {
     rows.current.clear();
 }
 
+/// Readers, this one too, trim spaces around a field that isn't quoted.
+bool needs_quotes(const std::string& field) {
+    const auto is_space = [](char c) { return c == ' ' || c == '\t'; };
+    return field.find_first_of(",\"\r\n") != std::string::npos ||
+           (!field.empty() && (is_space(field.front()) || is_space(field.back())));
+}
+
 constexpr size_t kBlockSize = 1 << 16;
 constexpr size_t kLongestLine = 1 << 20;
 
@@ -244,7 +251,7 @@ bool CsvStream::read_line() {
 void CsvWriter::row(const std::vector<std::string>& fields) {
     for (size_t i = 0; i < fields.size(); ++i) {
         if (i > 0) text_ += ',';
-        if (fields[i].find_first_of(",\"\r\n") == std::string::npos) {
+        if (!needs_quotes(fields[i])) {
             text_ += fields[i];
             continue;
         }

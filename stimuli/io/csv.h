@@ -95,7 +95,7 @@ class CsvStream {
 /// Writes a table row by row into text.
 class CsvWriter {
   public:
-    /// Appends one row; fields with a comma, quote or line break are quoted.
+    /// Appends one row; fields with a comma, quote, line break, or space at an end are quoted.
     void row(const std::vector<std::string>& fields);
     const std::string& text() const { return text_; }
 

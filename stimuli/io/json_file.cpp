@@ -9,6 +9,8 @@
 namespace stairstep {
 namespace {
 
+constexpr int kDeepest = 100;
+
 [[noreturn]] void reject_key(const std::string& source, const std::string& key, const std::string& problem) {
     throw InputError(source, "\"" + key + "\" " + problem, "compare it with law.json in the README");
 }
@@ -31,7 +33,12 @@ nlohmann::json read_json(const std::filesystem::path& path) {
 }
 
 nlohmann::json parse_json(std::string_view text, const std::string& source) {
-    auto value = nlohmann::json::parse(text, nullptr, false);
+    const auto within_depth = [&source](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+        // Values are copied and written by recursion, which would run out of stack.
+        if (depth > kDeepest) throw InputError(source, "nests over 100 deep", "write it again");
+        return true;
+    };
+    auto value = nlohmann::json::parse(text, within_depth, false);
     if (value.is_discarded()) throw InputError(source, "is not JSON, or cut short", "write it again");
     if (!value.is_object()) throw InputError(source, "holds no JSON object", "write it again");
     return value;

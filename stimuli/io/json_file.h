@@ -7,7 +7,8 @@
 
 namespace stairstep {
 
-/// Parses a JSON file whose top level is an object. Throws InputError for a missing or malformed one.
+/// Parses a JSON file whose top level is an object. Throws InputError for a missing or malformed one, and for one that
+/// nests over 100 deep.
 nlohmann::json read_json(const std::filesystem::path& path);
 
 /// As `read_json`, from text; `source` stands for the file's name in errors.

@@ -87,6 +87,11 @@ ManifestEntry manifest_entry(const CsvTable& manifest, size_t row, const std::fi
     if (const auto column = column_if_filled("pixels_per_degree")) {
         rendition.pixels_per_degree = manifest.number(row, *column);
     }
+    // A manifest may come from anywhere, and must not have files read that lie elsewhere, or never end.
+    if (text("transfer").find('/') != std::string::npos) {
+        throw InputError(manifest.place(row), "the transfer " + text("transfer") + " is not beside it",
+                         "write the manifest again");
+    }
     try {
         encoding.transfer = read_transfer(text("transfer"), folder);
         require_valid(rendition);

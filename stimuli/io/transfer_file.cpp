@@ -35,6 +35,9 @@ Transfer read_table(const std::filesystem::path& path) {
         points[row].level /= last.level;
         points[row].luminance /= last.luminance;
         // Measurements closer than a double tells apart are the same.
+        if (row > 0 && points[row].level <= points[row - 1].level) {
+            table.reject(row, level, "doesn't increase", "leave out that measurement");
+        }
         if (row > 0 && points[row].luminance <= points[row - 1].luminance) {
             table.reject(row, luminance, "doesn't increase", "leave out that measurement");
         }

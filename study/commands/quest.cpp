@@ -10,10 +10,10 @@
 #include <optional>
 
 #include "stimuli/error.h"
-#include "stimuli/io/csv.h"
 #include "stimuli/io/program.h"
 #include "stimuli/io/progress.h"
 #include "stimuli/number.h"
+#include "study/answer_stream.h"
 #include "study/commands/commands.h"
 #include "study/engines/psychtoolbox_quest.h"
 #include "study/engines/quest.h"
@@ -80,20 +80,13 @@ void read_trials(Engine& engine) {
     if (isatty(STDIN_FILENO) != 0) {
         throw InputError(kSource, "is a terminal", "give it trials: stairstep-study quest < trials.csv");
     }
-    CsvStream rows(stdin, kSource);
-    const size_t intensity = rows.column("intensity");
-    const size_t response = rows.column("response");
+    AnswerStream answers(stdin, kSource);
     Progress progress("reading trials, bytes", input_size());
     long bytes = 0;
-    while (rows.next()) {
-        const double answer = rows.number(response);
-        if (answer != 0 && answer != 1) {
-            rows.reject(response, "\"" + std::string(rows.text(response)) + "\" is neither 0 nor 1",
-                        "write 1 for a right answer, 0 for a wrong one");
-        }
-        engine.update(rows.number(intensity), answer == 1);
-        if (rows.bytes() != bytes) progress.advance(rows.bytes() - bytes);
-        bytes = rows.bytes();
+    while (const auto answer = answers.next()) {
+        engine.update(answer->intensity, answer->correct);
+        if (answers.bytes() != bytes) progress.advance(answers.bytes() - bytes);
+        bytes = answers.bytes();
     }
     if (engine.trials() == 0) throw InputError(kSource, "has no trials", "rows of intensity,response are needed");
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace stairstep {
@@ -71,6 +72,39 @@ TEST(SceneArchive, IndicesThatLeadNowhereAreRefused) {
     bad = small_scene();
     bad.scene.textures[0].width = 3;
     EXPECT_THROW(scene_from_archive(archive_of(bad)), std::runtime_error);
+}
+
+TEST(SceneArchive, NumbersThatAreNoneAreRefused) {
+    const auto refused = [](const auto& spoil) {
+        ImportedScene bad = small_scene();
+        spoil(bad);
+        EXPECT_THROW(scene_from_archive(archive_of(bad)), std::runtime_error);
+    };
+    refused([](ImportedScene& s) { s.scene.meshes[0].vertices[2].position.y = NAN; });
+    refused([](ImportedScene& s) { s.scene.meshes[1].vertices[0].position.x = 2e12f; });
+    refused([](ImportedScene& s) { s.scene.meshes[1].vertices[0].normal.z = INFINITY; });
+    refused([](ImportedScene& s) { s.scene.materials[0].base_colour.x = NAN; });
+    refused([](ImportedScene& s) { s.cameras[0].near = 0; });
+    refused([](ImportedScene& s) { s.cameras[0].far = INFINITY; });
+    refused([](ImportedScene& s) { s.cameras[0].vertical_fov_deg = 1e300; });
+    refused([](ImportedScene& s) { s.lights[0].basis.up.x = NAN; });
+    refused([](ImportedScene& s) { s.lights[0].cone_deg = 0; });
+}
+
+TEST(SceneArchive, NoByteGivesAnotherScene) {
+    // Whatever a byte is set to, the archive is refused, or holds a scene whose archive it is: a flag of 2 would read as 1.
+    const std::string whole = archive_of(small_scene());
+    int taken = 0;
+    for (size_t at = 0; at < whole.size(); ++at) {
+        std::string spoilt = whole;
+        spoilt[at] = static_cast<char>(spoilt[at] + 2);
+        try {
+            EXPECT_EQ(archive_of(scene_from_archive(spoilt)), spoilt) << at;
+            ++taken;
+        } catch (const std::runtime_error&) {
+        }
+    }
+    EXPECT_GT(taken, 50);
 }
 
 }  // namespace

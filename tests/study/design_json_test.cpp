@@ -122,5 +122,17 @@ TEST(DesignJson, RefusesWhatCannotBe) {
     }
 }
 
+TEST(DesignJson, RefusesListsThatTakeForEver) {
+    for (const char* key : {"contrasts", "texels_px"}) {
+        nlohmann::json values = nlohmann::json::array();
+        for (int i = 1; i <= 100; ++i) values.push_back(i / 100.0);
+        EXPECT_NO_THROW(design_from_json(nlohmann::json{{key, values}}.dump(), "d")) << key;
+        for (int i = 1; i <= 100'000; ++i) values.push_back(i / 1e6 + 1e-9);
+        EXPECT_THROW(design_from_json(nlohmann::json{{key, values}}.dump(), "d"), InputError) << key;
+    }
+    const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+    EXPECT_THROW(design_from_json("{\"task\": {\"name\": " + deep + "}}", "d"), InputError);
+}
+
 }  // namespace
 }  // namespace stairstep

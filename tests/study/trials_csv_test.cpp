@@ -81,6 +81,10 @@ TEST_F(TrialsCsv, ErrorsNameLineAndColumn) {
         {"o,step,box,1,5,12,circle,line\n", "line 3, column stimulus"},
         {"o,step,box,1,5,12,line,yes\n", "line 3, column response"},
         {",step,box,1,5,12,line,line\n", "line 3, column observer"},
+        {"M\xfcller,step,box,1,5,12,line,line\n", "line 3, column observer: is not UTF-8"},
+        // Their ratio would be no number.
+        {"o,step,box,1,1e300,12,line,line\n", "line 3, column texel_px"},
+        {"o,step,box,1,5,1e-300,line,line\n", "line 3, column radius_px"},
         {"o,step,box,1,5,12,line\n", "line 3 has 7 fields"},
     };
     for (const auto& [row, where] : cases) {

@@ -27,5 +27,13 @@ TEST(JsonFile, NamesSourceAndKeyOfWhatIsWrong) {
     EXPECT_THROW(json_number(parse_json(R"({"a": 1e999})", "f"), "a", "f"), InputError);
 }
 
+TEST(JsonFile, RefusesWhatNestsDeeperThanTheStack) {
+    const auto nested = [](size_t depth) {
+        return "{\"a\": " + std::string(depth, '[') + std::string(depth, ']') + "}";
+    };
+    EXPECT_NO_THROW(parse_json(nested(50), "f.json"));
+    EXPECT_THROW(parse_json(nested(1'000'000), "f.json"), InputError);
+}
+
 }  // namespace
 }  // namespace stairstep

@@ -89,6 +89,9 @@ TEST_F(StimulusTable, ManifestThatNamesAnotherFileIsRefused) {
     EXPECT_THROW(entry("step_box_a10_r35_c1.png,step,box,1,10,35,exact,linear,1e300"), InputError);
     EXPECT_THROW(entry("step_box_a10_r35_c1.exr,step,box,1,10,35,exact,linear,8"), InputError);
     EXPECT_THROW(entry("step_box_a10_r35_c1.png,step,box,1,10,35,exact,absent.csv,8"), InputError);
+    // Without an end: were it read, this test would have none either.
+    EXPECT_THROW(entry("step_box_a10_r35_c1.png,step,box,1,10,35,exact,/dev/zero,8"), InputError);
+    EXPECT_THROW(entry("step_box_a10_r35_c1.png,step,box,1,10,35,exact,../../../../../dev/zero,8"), InputError);
 }
 
 }  // namespace

@@ -57,6 +57,8 @@ TEST_F(TransferFile, NamesTheLineThatIsWrong) {
     EXPECT_EQ(names(error_of("level,luminance\n0.1,0\n1,1\n"), "line 2"), "");
     EXPECT_EQ(names(error_of("level,luminance\n0,0\n254,1\n"), "line 3"), "");
     EXPECT_EQ(names(error_of("level,luminance\n0,0\n"), "two measurements"), "");
+    // 5e-324 is the least double; divided by 255 it is 0.
+    EXPECT_EQ(names(error_of("level,luminance\n0,0\n5e-324,0.5\n255,1\n"), "line 3, column level"), "");
     EXPECT_EQ(names(error_of("level,cd\n0,0\n1,1\n"), "\"luminance\""), "");
     EXPECT_THROW(read_transfer("absent.csv", folder_.path()), InputError);
     EXPECT_THROW(read_transfer("", folder_.path()), InputError);
