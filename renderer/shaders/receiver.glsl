@@ -22,6 +22,9 @@ float needed_texel = 1e30;
 // Side of the texel, in the light plane, of which two would cover this pixel's surface if that faced the light: the finest
 // that is of use. On a surface that doesn't, texels are stretched by as much as its light is weaker.
 float footprint = 0;
+// Change of the receiver's place, texels, from this pixel to the next one to the right and upwards, on its surface.
+vec2 pixel_right = vec2(0);
+vec2 pixel_up = vec2(0);
 
 // The map lies in its texture with guard texels around it, which are empty.
 layout(binding = 0) uniform sampler2D shadow_map;
@@ -87,8 +90,10 @@ uniform vec2 texel_side;
 float light_at(vec3 world, vec3 facet, vec3 to_light) {
     Receiver receiver = receiver_at(world, facet, to_light);
     // Here, as derivatives need all of a quad's pixels.
-    vec2 across = dFdx(receiver.texel) * texel_side;
-    vec2 up = dFdy(receiver.texel) * texel_side;
+    pixel_right = dFdx(receiver.texel);
+    pixel_up = dFdy(receiver.texel);
+    vec2 across = pixel_right * texel_side;
+    vec2 up = pixel_up * texel_side;
     float facing = dot(facet, to_light);
     footprint = sqrt(abs(across.x * up.y - across.y * up.x) / max(facing, 0.05) / 2);
     if (facing <= 0 || in_cone(to_light) <= 0) return 0;
