@@ -131,6 +131,8 @@ void PrefilteredMap::bind(const gl::Program& program) const {
     gl::set_uniform(program, "prefiltered_factor", glm::vec2(axes_[0].factor, axes_[1].factor));
     gl::set_uniform(program, "prefiltered_border", glm::vec2(axes_[0].reach, axes_[1].reach));
     gl::set_uniform(program, "prefiltered_scale", glm::vec2(1) / glm::vec2(capacity_));
+    gl::set_uniform(program, "prefiltered_radius",
+                    glm::vec2(axes_[0].radius * axes_[0].factor, axes_[1].radius * axes_[1].factor));
     gl::BindTextureUnit(2, result_.id());
 }
 

@@ -49,7 +49,7 @@ struct TechniqueSettings {
     double law_slope = 3.47;
     /// Of vsm, in [0, kMostBleedingReduction]: of the casters' share that Chebyshev's bound leaves lit, what counts as none;
     /// the rest is stretched over [0, 1].
-    double bleeding_reduction = 0;
+    double bleeding_reduction = 0.2;
 };
 
 /// A technique, ready for a scene's maps.
