@@ -40,7 +40,9 @@ std::vector<Configuration> few_configurations() {
             rotated(1024, 9),
             rotated(1024, 49),
             auto_pcss(),
-            {"pcss", "pcss", FilterMode::rotated, 512, 9}};
+            {"pcss", "pcss", FilterMode::rotated, 512, 9},
+            {"vsm", "vsm", FilterMode::automatic, std::nullopt, 0},
+            {"esm", "esm", FilterMode::automatic, 512, 0}};
 }
 
 BenchJob small_job(const fs::path& folder) {
@@ -104,6 +106,10 @@ TEST_F(SmallBench, MeasuresEachConfiguration) {
             EXPECT_EQ(number(rows, row, "texels"), number(rows, row, "width") * number(rows, row, "height"));
             EXPECT_GT(number(rows, row, "frame_ms"), 0);
             EXPECT_LE(number(rows, row, "error_rmse"), number(rows, row, "error_max"));
+            const double bleeding = number(rows, row, "light_bleeding");
+            EXPECT_LE(bleeding, number(rows, row, "error_max")) << technique;
+            // Without shadows all of the light is where none should be; exact filters err at rims alone.
+            EXPECT_NEAR(bleeding, technique == "none" ? 1 : 0, technique == "none" ? 1e-12 : 0.1) << technique;
             errors[technique + " " + rows.text(row, rows.column("filter_taps"))] = number(rows, row, "error_rmse");
             const std::string family = rows.text(row, rows.column("truth")) == "area-light" ? "light" : "filter";
             points[family].emplace_back(number(rows, row, "frame_ms"), number(rows, row, "error_rmse"));
