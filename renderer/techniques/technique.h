@@ -48,7 +48,8 @@ struct TechniqueSettings {
     /// c > 0 of a box, half-width in texels: what filters that choose their own texels, and maps sized by the law, go by.
     double law_slope = 3.47;
     /// Of vsm, in [0, kMostBleedingReduction]: of the casters' share that Chebyshev's bound leaves lit, what counts as none;
-    /// the rest is stretched over [0, 1].
+    /// the rest is stretched over [0, 1]. Of crane and clutter, 0.1 to 0.2 have the lowest error of the penumbra (more eats into
+    /// it), and 0.2 a third of the bleeding that 0 has.
     double bleeding_reduction = 0.2;
 };
 

@@ -4,7 +4,12 @@
 //     V = 1 − a + a·σ²/(σ² + (μ − h)²)     where μ > h, else 1
 //
 // a is the filter's share that holds casters, μ and σ² mean and variance of their heights above the map's far end, h the
-// receiver's height. As an upper bound of the box filter's V it leaks light: where a caster shades another's shadow, and where
+// receiver's height. What a filter holds beside casters lights any receiver, also one that stands higher than the map's far
+// end: taken for casters at that end, as usual, it would make up for shadows on all that isn't in the map. Where a sloping
+// surface ends within the filter its upper part alone is there; h is raised by as much as this part's mean may be above it
+// (shaders/prefiltered.glsl), so that it doesn't shade itself, at the cost of light at contacts.
+//
+// As an upper bound of the box filter's V it leaks light: where a caster shades another's shadow, and where
 // a caster's own depth varies. Over casters of one depth it is the box filter's V itself, 1 − a.
 //
 // Heights are floats in [0, 1] counted from the far end, near which most receivers lie; second moments know a variance to
