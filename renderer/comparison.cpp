@@ -50,6 +50,8 @@ VisibilityError compare_visibility(const std::vector<float>& rendered, const std
     double squares = 0;
     double penumbra_squares = 0;
     size_t penumbra = 0;
+    double bled = 0;
+    size_t dark = 0;
     size_t over_1 = 0;
     size_t over_8 = 0;
     for (size_t i = 0; i < truth.size(); ++i) {
@@ -58,6 +60,10 @@ VisibilityError compare_visibility(const std::vector<float>& rendered, const std
         if (truth[i] > 0 && truth[i] < 1) {
             penumbra_squares += apart * apart;
             ++penumbra;
+        }
+        if (truth[i] == 0) {
+            bled += rendered[i];
+            ++dark;
         }
         error.max = std::max(error.max, apart);
         over_1 += apart > 1 / 255.0;
@@ -69,6 +75,7 @@ VisibilityError compare_visibility(const std::vector<float>& rendered, const std
     error.share_over_1_level = static_cast<double>(over_1) / pixels;
     error.share_over_8_levels = static_cast<double>(over_8) / pixels;
     error.penumbra_share = static_cast<double>(penumbra) / pixels;
+    error.light_bleeding = dark ? bled / static_cast<double>(dark) : 0;
     return error;
 }
 

@@ -35,6 +35,9 @@ struct VisibilityError {
     double share_over_8_levels = 0;
     /// Share of the pixels that lie in the penumbra.
     double penumbra_share = 0;
+    /// Light bleeding: mean visibility of the pixels where the truth is fully dark, surfaces turned away from the light, which
+    /// no technique lights, among them; 0 where there are none.
+    double light_bleeding = 0;
 };
 
 /// Both of the same length, at least 1.

@@ -172,7 +172,10 @@ ordered_json describe(const Rendering& rendering, const std::string& file, doubl
     json["radius_in_texels"] = rendering.renderer.map().filter_radius / texel;
     json["texel_px_on_screen"] = texel_px;
     json["extrapolates"] = texel_px < law_range.first || texel_px > law_range.second;
-    json["filter"] = lookups.gathers ? "exact" : lookups.filter > 1 ? "sampled" : "none";
+    json["filter"] = lookups.prefiltered  ? "prefiltered"
+                     : lookups.gathers    ? "exact"
+                     : lookups.filter > 1 ? "sampled"
+                                          : "none";
     json[lookup_kind] = lookups.filter;
     if (lookups.search > 0) json["search_" + lookup_kind] = lookups.search;
     json["frame_ms"] = frame_ms(rendering);
@@ -190,7 +193,8 @@ ordered_json describe(const Rendering& rendering, const std::string& file, doubl
                                     {"max", rendering.error->max},
                                     {"share_over_1_level", rendering.error->share_over_1_level},
                                     {"share_over_8_levels", rendering.error->share_over_8_levels},
-                                    {"penumbra_share", rendering.error->penumbra_share}};
+                                    {"penumbra_share", rendering.error->penumbra_share},
+                                    {"light_bleeding", rendering.error->light_bleeding}};
     }
     return json;
 }
@@ -221,7 +225,7 @@ ordered_json run_image_job(const ImageJob& job) {
     const Subject subject{staged.scene, gpu_scene, state};
     const FrameTarget target = make_frame_target(job.show, job.width, job.height, job.samples);
     ShadowSettings settings;
-    settings.technique = {job.filter, job.taps, job.search_taps, slope};
+    settings.technique = {job.filter, job.taps, job.search_taps, slope, job.bleeding_reduction};
     settings.radius = radius;
     settings.largest_size = job.largest_size;
     settings.fit = job.fit;
@@ -306,7 +310,8 @@ std::string summary_of(const ordered_json& stats) {
                 format_fixed(rendering["depth_ms"], 1) + ", lighting " + format_fixed(rendering["lighting_ms"], 1) +
                 ")";
         if (rendering.contains("visibility_error")) {
-            text += ", penumbra error " + format_fixed(rendering["visibility_error"]["penumbra_rmse"], 4);
+            text += ", penumbra error " + format_fixed(rendering["visibility_error"]["penumbra_rmse"], 4) +
+                    ", light bleeding " + format_fixed(rendering["visibility_error"]["light_bleeding"], 4);
         }
         if (rendering["resolution"] == "auto" && rendering["extrapolates"].get<bool>()) {
             text += ", beyond the texel sizes that the law was measured at";

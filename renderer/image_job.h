@@ -31,6 +31,8 @@ struct ImageJob {
     FilterMode filter = FilterMode::automatic;
     int taps = 25;
     int search_taps = 25;
+    /// As TechniqueSettings.
+    double bleeding_reduction = TechniqueSettings{}.bleeding_reduction;
     Fit fit = Fit::axis_aligned;
     gl::ContextKind context = gl::ContextKind::osmesa;
     int largest_size = 8192;
@@ -75,7 +77,7 @@ struct ImageJob {
 ///     limited_by               fixed, law, screen (texels of a pixel) or largest_size
 ///     radius_in_texels, texel_px_on_screen    along the axis with the coarser texels, at the model's centre
 ///     extrapolates             whether that texel lies outside the law's range
-///     filter                   exact, sampled or none; then `gathers` or `taps`: lookups a pixel, and for pcss those of
+///     filter                   exact, sampled, prefiltered or none; then `gathers` or `taps`: lookups a pixel, and for pcss those of
 ///                              its search, search_gathers or search_taps
 ///     frame_ms, depth_ms, lighting_ms         medians on the CPU's clock
 ///     fit_ms, prepare_ms, need_ms             likewise: fitting the light's frustum, what a technique makes of its map, and

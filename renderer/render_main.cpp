@@ -165,6 +165,10 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
         ->capture_default_str();
     command->add_option("--search-taps", job.search_taps, "of pcss's blocker search, likewise")->capture_default_str();
     command
+        ->add_option("--bleeding", job.bleeding_reduction,
+                     "of vsm: the share of light that counts as bleeding and is left out, 0 to 0.95")
+        ->capture_default_str();
+    command
         ->add_option(
             "--light-size", job.light_half_tangent,
             "for pcss: tangent of half the angle that the light is seen under (a spot: half its side, world units); "

@@ -50,6 +50,7 @@ const std::vector<Column>& columns() {
          [](const Row& r) {
              const std::string& technique = r.one.configuration.entry;
              if (technique == "none" || technique == "hard") return std::string("none");
+             if (r.one.lookups.prefiltered) return std::string("prefiltered");
              return std::string(name(r.one.configuration.filter));
          }},
         {"lookups", [](const Row& r) { return std::string(r.one.lookups.gathers ? "gathers" : "taps"); }},
@@ -82,6 +83,7 @@ const std::vector<Column>& columns() {
         {"frames", [](const Row& r) { return number(r.setting.frames); }},
         {"renderer", [](const Row& r) { return r.setting.renderer; }},
         {"context", [](const Row& r) { return r.setting.context; }},
+        {"light_bleeding", [](const Row& r) { return number(r.one.error.light_bleeding); }},
     };
     return list;
 }

@@ -13,6 +13,10 @@ bool is_pcss(const Configuration& configuration) {
     return configuration.entry == "pcss";
 }
 
+bool is_prefiltered(const Configuration& configuration) {
+    return configuration.entry == "vsm" || configuration.entry == "esm";
+}
+
 bool contains(const std::vector<Configuration>& list, const Configuration& configuration) {
     return std::find(list.begin(), list.end(), configuration) != list.end();
 }
@@ -40,6 +44,7 @@ std::string label(const Configuration& configuration) {
 }
 
 TruthKind truth_of(const Configuration& configuration) {
+    if (is_prefiltered(configuration)) return TruthKind::box_filter;
     if (configuration.entry != "pcf") return TruthKind::area_light;
     const bool disk = configuration.filter == FilterMode::poisson || configuration.filter == FilterMode::rotated;
     return disk ? TruthKind::disk_filter : TruthKind::box_filter;
@@ -77,6 +82,7 @@ std::vector<Configuration> all_configurations() {
     }
     for (const int taps : kTaps) add("pcss", "pcss", FilterMode::rotated, taps);
     add("pcss-levels", "pcss", FilterMode::exact, 0);
+    for (const char* technique : {"vsm", "esm"}) add(technique, technique, FilterMode::automatic, 0);
     return list;
 }
 
@@ -96,8 +102,13 @@ std::vector<Configuration> quick_configurations() {
 
 double map_bytes(const Configuration& configuration, int largest_size) {
     const double side = configuration.side.value_or(largest_size);
+    const double depths = 4 * side * side;
+    // What is filtered lies in two textures, one with mipmaps; of a filter of 16 texels or more it is less.
+    constexpr double kTextures = 2 + 1.0 / 3;
+    if (configuration.entry == "vsm") return depths * (1 + 4 * kTextures);
+    if (configuration.entry == "esm") return depths * (1 + 2 * kTextures);
     // Depths are floats; all of a map's levels together take less than its own size once more.
-    return 4 * side * side * (is_pcss(configuration) && configuration.filter == FilterMode::exact ? 2 : 1);
+    return depths * (is_pcss(configuration) && configuration.filter == FilterMode::exact ? 2 : 1);
 }
 
 std::vector<std::vector<Configuration>> groups_of(const std::vector<Configuration>& list, double most_bytes,

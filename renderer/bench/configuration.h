@@ -1,7 +1,7 @@
 // What a bench compares: techniques with their filter, shadow-map sizes and taps.
 //
 // Names, as bench.csv has them: none · hard · pcf-exact, pcf-jittered, pcf-poisson, pcf-rotated · pcss (rotated taps, the
-// classic) · pcss-levels (exact, at the level of the map where the law puts each pixel's filter).
+// classic) · pcss-levels (exact, at the level of the map where the law puts each pixel's filter) · vsm, esm.
 #pragma once
 
 #include <optional>

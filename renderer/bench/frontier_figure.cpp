@@ -25,7 +25,8 @@ struct Look {
 constexpr std::array kLooks{
     Look{"none", "#777777", 10},        Look{"hard", "#000000", 8},        Look{"pcss", "#d55e00", 6},
     Look{"pcss-levels", "#0072b2", 4},  Look{"pcf-exact", "#0072b2", 4},   Look{"pcf-jittered", "#009e73", 6},
-    Look{"pcf-poisson", "#e69f00", 12}, Look{"pcf-rotated", "#d55e00", 6},
+    Look{"pcf-poisson", "#e69f00", 12}, Look{"pcf-rotated", "#d55e00", 6}, Look{"vsm", "#cc79a7", 8},
+    Look{"esm", "#56b4e9", 10},
 };
 
 struct Point {

@@ -23,6 +23,8 @@ float needed_texel = 1e30;
 // Side of the texel, in the light plane, of which two would cover this pixel's surface if that faced the light: the finest
 // that is of use. On a surface that doesn't, texels are stretched by as much as its light is weaker.
 float footprint = 0;
+// Area in the light plane that this pixel covers.
+float covered = 0;
 
 // The map lies in its texture with guard texels around it, which are empty.
 layout(binding = 0) uniform sampler2D shadow_map;
@@ -70,25 +72,24 @@ Receiver receiver_at(vec3 from_eye, vec3 normal, vec3 to_light) {
     return Receiver(texel.xy, texel.z, slope, steepness * misplaced.x + depth_error + 16 * 1.2e-7);
 }
 
-// `footprint` at a surface point: its pixel's area on the surface is pixel_area·z³/|n·p|, z being p's depth along the view. As a
-// spot sees it, in tangents, it is smaller by depth³/(n·(p − light)).
-float footprint_at(vec3 from_eye, vec3 facet, vec3 to_light) {
+// `covered` at a surface point: its pixel's area on the surface is pixel_area·z³/|n·p|, z being p's depth along the view. Across a
+// directional light it is smaller by n·light; as a spot sees it, in tangents, by its own n·(p − light)/depth³.
+float covered_at(vec3 from_eye, vec3 facet) {
     float depth = -dot(view_back, from_eye);
     float area = pixel_area * depth * depth * depth / max(-dot(facet, from_eye), 1e-30);
-    if (spot) {
-        vec3 from_light = from_eye - light_from_eye;
-        float light_depth = max(-dot(light_back, from_light), 1e-30);
-        area *= max(-dot(facet, from_light), 0) / (light_depth * light_depth * light_depth);
-        area /= max(dot(facet, to_light), 0.05);
-    }
-    return sqrt(area / 2);
+    if (!spot) return area * max(dot(facet, light_back), 0);
+    vec3 from_light = from_eye - light_from_eye;
+    float light_depth = max(-dot(light_back, from_light), 1e-30);
+    return area * max(-dot(facet, from_light), 0) / (light_depth * light_depth * light_depth);
 }
 
 // Visibility of the light at a surface point; 0 where its facet is turned away (it is in its own shadow, no map is needed to
 // know) and outside a spot's cone.
 float light_at(vec3 from_eye, vec3 facet, vec3 to_light) {
-    if (dot(facet, to_light) <= 0 || in_cone(to_light) <= 0) return 0;
-    footprint = footprint_at(from_eye, facet, to_light);
+    float facing = dot(facet, to_light);
+    if (facing <= 0 || in_cone(to_light) <= 0) return 0;
+    covered = covered_at(from_eye, facet);
+    footprint = sqrt(covered / max(facing, 0.05) / 2);
     return visibility(receiver_at(from_eye, facet, to_light));
 }
 

@@ -11,9 +11,12 @@ TechniqueEntry none_technique();
 TechniqueEntry hard_technique();
 TechniqueEntry pcf_technique();
 TechniqueEntry pcss_technique();
+TechniqueEntry vsm_technique();
+TechniqueEntry esm_technique();
 
 std::span<const TechniqueEntry> techniques() {
-    static const std::array list{none_technique(), hard_technique(), pcf_technique(), pcss_technique()};
+    static const std::array list{none_technique(), hard_technique(), pcf_technique(),
+                                 pcss_technique(), vsm_technique(),  esm_technique()};
     return list;
 }
 

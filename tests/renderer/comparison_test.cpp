@@ -33,6 +33,13 @@ TEST(Comparison, VisibilityErrorsKnowThePenumbra) {
     EXPECT_DOUBLE_EQ(error.share_over_8_levels, 0.5);
 }
 
+TEST(Comparison, LightBleedsWhereTheTruthIsFullyDark) {
+    // The second and the last aren't fully dark, whatever is drawn there.
+    EXPECT_DOUBLE_EQ(compare_visibility({0.5f, 1, 0.25f, 0, 1}, {0, 0.125f, 0, 0, 1}).light_bleeding, 0.25);
+    EXPECT_EQ(compare_visibility({0.5f, 1}, {0.25f, 1}).light_bleeding, 0) << "nothing dark";
+    EXPECT_EQ(compare_visibility({0, 0}, {0, 0}).light_bleeding, 0);
+}
+
 TEST(Comparison, NoPenumbraIsNoError) {
     EXPECT_EQ(compare_visibility({0, 1}, {0, 1}).penumbra_rmse, 0);
 }

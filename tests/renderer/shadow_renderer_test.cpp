@@ -160,7 +160,7 @@ SceneState boxes_state(double t) {
 TEST_F(Renderer, TexelsStayOnTheirGridAsTheLightTurns) {
     const GpuScene gpu = upload(boxes_scene());
     const FrameTarget target = make_frame_target(Show::visibility, kWidth, kHeight, 1);
-    for (const std::string technique : {"pcf", "pcss"}) {
+    for (const std::string technique : {"pcf", "pcss", "vsm", "esm"}) {
         for (const std::optional<int> fixed : {std::optional<int>(), std::optional<int>(300)}) {
             for (const Fit fit : {Fit::axis_aligned, Fit::smallest_rectangle}) {
                 SCOPED_TRACE(testing::Message() << technique << " " << fixed.value_or(0));
@@ -217,7 +217,9 @@ TEST_F(Renderer, NothingOfALargerMapShowsInASmallerOne) {
                           {"pcf", FilterMode::rotated, 0.3},
                           {"pcf", FilterMode::jittered, 0.3},
                           {"pcss", FilterMode::exact, 0.1},
-                          {"pcss", FilterMode::rotated, 0.1}}) {
+                          {"pcss", FilterMode::rotated, 0.1},
+                          {"vsm", FilterMode::automatic, 0.1},
+                          {"esm", FilterMode::automatic, 0.1}}) {
         for (const glm::ivec2 small : {glm::ivec2(90, 61), glm::ivec2(33, 128), glm::ivec2(1, 1)}) {
             SCOPED_TRACE(testing::Message() << c.technique << " " << name(c.filter) << " " << small.x);
             ShadowSettings settings = auto_settings(c.radius);
@@ -234,7 +236,12 @@ TEST_F(Renderer, NothingOfALargerMapShowsInASmallerOne) {
             const std::vector<float> after = read_visibility(target);
             ShadowRenderer unused = fresh();
             unused.draw_with(shape_of(state, small.x, small.y), gpu, state, target, *timer_);
-            EXPECT_EQ(after, read_visibility(target));
+            const std::vector<float> alone = read_visibility(target);
+            // A prefiltered map's memory is of another size, and places in it are rounded otherwise.
+            const bool prefiltered = c.technique == std::string("vsm") || c.technique == std::string("esm");
+            float worst = 0;
+            for (size_t i = 0; i < after.size(); ++i) worst = std::max(worst, std::abs(after[i] - alone[i]));
+            EXPECT_LE(worst, prefiltered ? 1e-3f : 0.0f);
             EXPECT_NE(after, former);
         }
     }

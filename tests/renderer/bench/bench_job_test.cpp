@@ -40,7 +40,9 @@ std::vector<Configuration> few_configurations() {
             rotated(1024, 9),
             rotated(1024, 49),
             auto_pcss(),
-            {"pcss", "pcss", FilterMode::rotated, 512, 9}};
+            {"pcss", "pcss", FilterMode::rotated, 512, 9},
+            {"vsm", "vsm", FilterMode::automatic, std::nullopt, 0},
+            {"esm", "esm", FilterMode::automatic, 512, 0}};
 }
 
 BenchJob small_job(const fs::path& folder) {
@@ -93,6 +95,7 @@ TEST_F(SmallBench, MeasuresEachConfiguration) {
     for (size_t scene = 0; scene < 2; ++scene) {
         EXPECT_EQ(result["scenes"][scene]["notes"].size(), 1u);
         std::map<std::string, double> errors;
+        std::map<std::string, double> bleedings;
         std::map<std::string, std::vector<std::pair<double, double>>> points;
         for (size_t row = scene * per_scene; row < (scene + 1) * per_scene; ++row) {
             const std::string technique = rows.text(row, rows.column("technique"));
@@ -104,6 +107,9 @@ TEST_F(SmallBench, MeasuresEachConfiguration) {
             EXPECT_EQ(number(rows, row, "texels"), number(rows, row, "width") * number(rows, row, "height"));
             EXPECT_GT(number(rows, row, "frame_ms"), 0);
             EXPECT_LE(number(rows, row, "error_rmse"), number(rows, row, "error_max"));
+            const double bleeding = number(rows, row, "light_bleeding");
+            EXPECT_LE(bleeding, number(rows, row, "error_max")) << technique;
+            bleedings[technique] = bleeding;
             errors[technique + " " + rows.text(row, rows.column("filter_taps"))] = number(rows, row, "error_rmse");
             const std::string family = rows.text(row, rows.column("truth")) == "area-light" ? "light" : "filter";
             points[family].emplace_back(number(rows, row, "frame_ms"), number(rows, row, "error_rmse"));
@@ -116,6 +122,11 @@ TEST_F(SmallBench, MeasuresEachConfiguration) {
         for (const auto& [technique, error] : errors) {
             if (technique == "none 0") continue;
             EXPECT_LT(error, errors["none 0"]) << technique;
+        }
+        // All of the light is where none should be, but for surfaces that are turned away.
+        EXPECT_GT(bleedings["none"], 0.2);
+        for (const auto& [technique, bleeding] : bleedings) {
+            if (technique != "none") EXPECT_LT(bleeding, 0.2 * bleedings["none"]) << technique;
         }
         EXPECT_LT(errors["pcf-rotated 49"], errors["pcf-rotated 9"]) << "more taps come closer to the filter";
     }

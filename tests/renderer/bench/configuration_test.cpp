@@ -18,8 +18,8 @@ bool contains(const std::vector<Configuration>& list, const Configuration& one) 
 
 TEST(Configurations, CrossTechniquesSizesAndTaps) {
     const std::vector<Configuration> list = all_configurations();
-    // 6 sizes of hard, exact, levels, and of four filters with 3 numbers of taps.
-    EXPECT_EQ(list.size(), 1u + 3 * 6 + 4 * 6 * 3);
+    // 6 sizes of hard, exact, levels, vsm, esm, and of four filters with 3 numbers of taps.
+    EXPECT_EQ(list.size(), 1u + 5 * 6 + 4 * 6 * 3);
     std::set<std::string> labels;
     for (const Configuration& one : list) {
         EXPECT_TRUE(labels.insert(label(one)).second) << label(one);
@@ -43,6 +43,12 @@ TEST(Configurations, AreMeasuredAgainstWhatTheySample) {
     EXPECT_EQ(truth_of(fixed_pcf()), TruthKind::disk_filter);
     EXPECT_EQ(truth_of(auto_pcss()), TruthKind::area_light);
     EXPECT_EQ(truth_of(fixed_pcss()), TruthKind::area_light);
+    for (const char* technique : {"vsm", "esm"}) {
+        const Configuration prefiltered{technique, technique, FilterMode::automatic, std::nullopt, 0};
+        EXPECT_EQ(truth_of(prefiltered), TruthKind::box_filter);
+        EXPECT_EQ(baseline_of(prefiltered), fixed_pcf());
+        EXPECT_TRUE(contains(all_configurations(), prefiltered));
+    }
 }
 
 RC_GTEST_PROP(Groups, HoldEachConfigurationAndItsBaseline, ()) {
