@@ -1,6 +1,10 @@
 // Percentage-closer soft shadows on levels of the map: each pixel filters at the coarsest one that the law allows its
 // radius, exactly, so that its cost is bounded however wide the penumbra, and without noise.
 //
+// The mean depth of what blocks is taken where the filter will look. A search as wide as a penumbra can be sees blockers
+// that stand too far aside for their depth: over a crease the far ends of its walls, which would widen the filter until it
+// takes in the near ones. So the search only says how wide to look again, and the mean over that box decides the radius.
+//
 // A level of factor f is what a map of f times the texel would hold: the depth at the centre of each of its texels. Factors
 // are 1, 2, 3, 4, 6, 8, 12 …; an even one's texel centres lie on the finest map's where its grid is moved by half a texel
 // of that. ranges.glsl and box_filter.glsl go before.
@@ -19,6 +23,18 @@ uniform vec2 softness;
 uniform float law_slope;
 // Half-width of the search, in texels of its level, at most; half a texel more is looked at.
 uniform float search_radius;
+// A look near by is on a level this much finer.
+uniform int nearer_levels;
+// Texels of the estimate, in those of the filter, at most.
+uniform float estimate_texel;
+
+// What a pixel looks for in the map: blockers as far off as any can be; how deep they are within the penumbra they would
+// throw; and the share of the light that they hide. The first time it finds nothing, what it looked at may have been too
+// coarse for what is small and near: it looks once more near by, and goes on from there.
+const int kWide = 0;
+const int kNear = 1;
+const int kEstimate = 2;
+const int kFilter = 3;
 
 // A share of a box that is rounding's.
 const float kNothing = 1e-5;
@@ -81,22 +97,39 @@ vec2 blocked_and_depth(Receiver receiver, int level, vec2 radius) {
     return sum / (4 * radius.x * radius.y);
 }
 
-float visibility(Receiver receiver) {
-    // Casters lie beyond depth 0: none further off to the side can be in the way.
-    vec2 search = max(softness * receiver.depth, 0.5);
-    int level = level_beyond(max(search.x, search.y) / search_radius);
-    // A texel's centre may lie up to half a texel beyond what it stands for.
-    vec2 found = blocked_and_depth(on_level(receiver, level), level, search / factor_of(level) + 0.5);
-    if (found.x < kNothing) return 1;
+// The texel that the law allows a radius, light plane.
+float texel_for(vec2 radius) { return min(radius.x * texel_side.x, radius.y * texel_side.y) / law_slope; }
 
-    // At contacts a texel's width is what the map can show.
-    vec2 radius = max(softness * (receiver.depth - found.y / found.x), 0.5);
-    float texel = min(radius.x * texel_side.x, radius.y * texel_side.y) / law_slope;
-    level = level_within(texel / max(texel_side.x, texel_side.y));
-    float blocked = blocked_and_depth(on_level(receiver, level), level, radius / factor_of(level)).x;
-    if (blocked < kNothing) return 1;
-    if (blocked > 1 - kNothing) return 0;
+float visibility(Receiver receiver) {
+    int look = kWide;
+    // Casters lie beyond depth 0: none further off to the side can be in the way.
+    vec2 radius = max(softness * receiver.depth, 0.5);
+    int level = level_beyond(max(radius.x, radius.y) / search_radius);
+    bool looked_near = false;
+    float blocked = 0;
+    // One loop around one look, as pixels that stop early then cost nothing for the looks they don't take.
+    while (look <= kFilter) {
+        // A texel's centre may lie up to half a texel beyond what it stands for.
+        float margin = look == kFilter ? 0.0 : 0.5;
+        vec2 found = blocked_and_depth(on_level(receiver, level), level, radius / factor_of(level) + margin);
+        blocked = found.x;
+        if (blocked < kNothing) {
+            if (looked_near || level == 0) return 1;
+            looked_near = true;
+            look = kNear;
+            level = max(level - nearer_levels, 0);
+            radius = min(radius, search_radius * factor_of(level));
+            continue;
+        }
+        if (look >= kEstimate && blocked > 1 - kNothing) return 0;
+        if (look == kFilter) break;
+        look = look == kEstimate ? kFilter : kEstimate;
+        // At contacts a texel's width is what the map can show.
+        radius = max(softness * (receiver.depth - found.y / found.x), 0.5);
+        float texel = texel_for(radius) * (look == kEstimate ? estimate_texel : 1.0);
+        level = level_within(texel / max(texel_side.x, texel_side.y));
+    }
     // A texel of the pixel's own footprint is as fine as the screen can show.
-    needed_texel = max(texel, footprint);
+    needed_texel = max(texel_for(radius), footprint);
     return 1 - blocked;
 }

@@ -11,8 +11,12 @@ namespace stairstep {
 namespace {
 
 /// Blocker searches are this far at most, in texels of the level they are done on; with the half texel more that they look
-/// at: 4 × 4 gathers.
-constexpr double kSearchRadius = 3;
+/// at: 3 × 3 gathers.
+constexpr double kSearchRadius = 2;
+/// A pixel that finds nothing looks once more near by, on a level with texels a quarter as large.
+constexpr int kNearerLevels = 4;
+/// Depths change less over a penumbra than visibility does: texels this much larger than the filter's do for their mean.
+constexpr double kEstimateTexel = 2;
 
 void set_softness(const gl::Program& program, const ShadowMap& map) {
     gl::set_uniform(program, "softness", glm::vec2(map.shape.frustum.softness / map.shape.texel()));
@@ -69,13 +73,19 @@ class PcssLevels final : public ShadowTechnique {
         set_softness(program, map);
         gl::set_uniform(program, "law_slope", static_cast<float>(slope_));
         gl::set_uniform(program, "search_radius", static_cast<float>(kSearchRadius));
+        gl::set_uniform(program, "nearer_levels", kNearerLevels);
+        gl::set_uniform(program, "estimate_texel", static_cast<float>(kEstimateTexel));
         levels_.bind(program);
     }
 
     Lookups lookups(const ShadowMap&) const override {
-        // Levels are a factor of 2 apart at most.
-        const auto side = [](double radius) { return static_cast<int>(std::ceil((2 * radius + 1) / 2)); };
-        return {side(kSearchRadius + 0.5) * side(kSearchRadius + 0.5), side(2 * slope_) * side(2 * slope_), true};
+        const auto gathers = [](double radius) {
+            const int side = static_cast<int>(std::ceil((2 * radius + 1) / 2));
+            return side * side;
+        };
+        // Levels are a factor of 2 apart at most. A look near by may be followed by a second estimate.
+        const int search = 2 * gathers(kSearchRadius + 0.5) + 2 * gathers(2 * slope_ / kEstimateTexel + 0.5);
+        return {search, gathers(2 * slope_), true};
     }
 
   private:

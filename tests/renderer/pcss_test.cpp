@@ -161,6 +161,34 @@ TEST_P(Pcss, TapsAreWithoutBias) {
     }
 }
 
+// As a light grows, pixels change the level that they filter on: by no more than one of two levels is off by at most, a/(4r),
+// and seldom at once.
+TEST_P(Pcss, LevelsChangeWithoutLeaps) {
+    constexpr double kStep = 1.03;
+    const ShadowSettings settings = pcss_settings(FilterMode::exact);
+    for (const double angle : {0.0, 200.0}) {
+        SCOPED_TRACE(angle);
+        std::vector<float> drawn;
+        made::StraightEdge before;
+        for (double softness = 0.4; softness < 1; softness *= kStep) {
+            const made::StraightEdge edge = made::straight_edge(GetParam(), angle, softness);
+            const std::vector<float> now = draw_edge(edge, settings, 1500);
+            double sum = 0;
+            double most = 0;
+            for (size_t i = 0; i < now.size() && !drawn.empty(); ++i) {
+                const glm::dvec3 point = made::edge_point(static_cast<int>(i % kWidth), static_cast<int>(i / kWidth));
+                const double wrong = now[i] - drawn[i] - (edge.visibility(point) - before.visibility(point));
+                most = std::max(most, std::abs(wrong));
+                sum += std::abs(wrong);
+            }
+            EXPECT_LE(most, 1 / (4 * kLawSlope) + 4e-3);
+            EXPECT_LE(sum / (kWidth * kHeight), 0.01);
+            drawn = now;
+            before = edge;
+        }
+    }
+}
+
 // A light without size has no penumbra; what remains is a texel's width.
 TEST_P(Pcss, APointsShadowIsHard) {
     for (const double angle : {0.0, 17.0, 133.0}) {

@@ -1,5 +1,4 @@
 // Percentage-closer soft shadows on whole scenes against the truth: maps that size themselves are no worse than large ones.
-// Not so in `colonnade`, where contacts are everywhere: docs/sizing.md has its figures.
 #include <gtest/gtest.h>
 
 #include "renderer/comparison.h"
@@ -55,7 +54,7 @@ TEST_P(PcssTruth, AutoIsNoWorseThanALargeFixedMap) {
     EXPECT_LT(sized.shape.texel_count(), fixed.shape.texel_count());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, PcssTruth, testing::Values("cornell", "crane"),
+INSTANTIATE_TEST_SUITE_P(Of, PcssTruth, testing::Values("clutter", "colonnade", "cornell", "crane"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
