@@ -11,6 +11,10 @@
 namespace stairstep {
 namespace {
 
+/// Of a display and the way to it: wider than any, and no quotient of two is without bounds.
+constexpr double kShortestLength_mm = 1e-6;
+constexpr double kLongestLength_mm = 1e9;
+
 /// Row of a balanced Latin square of `size` treatments (Williams 1949): 0, 1, n−1, 2, n−2, … shifted by the row.
 std::vector<int> latin_square_row(int size, int row) {
     std::vector<int> order;
@@ -77,8 +81,9 @@ void require_valid(const Design& d, const std::string& source) {
     const auto is_side = [](int side) { return side >= 1 && side <= 16384; };
     require(is_side(d.width_px) && is_side(d.height_px), "size_px", "needs two sides of 1 to 16384 px",
             "use for example [640, 480]");
-    require(!d.viewing || (is_positive(d.viewing->distance_mm) && is_positive(d.viewing->pixel_pitch_mm)), "viewing",
-            "needs lengths above 0 mm", "use for example {\"distance_mm\": 600, \"pixel_pitch_mm\": 0.25}");
+    const auto is_length = [](double mm) { return mm >= kShortestLength_mm && mm <= kLongestLength_mm; };
+    require(!d.viewing || (is_length(d.viewing->distance_mm) && is_length(d.viewing->pixel_pitch_mm)), "viewing",
+            "needs lengths from 1e-6 mm to 1e9 mm", "use for example {\"distance_mm\": 600, \"pixel_pitch_mm\": 0.25}");
     RoundEngine(engine_settings(d), d.texels_px.size(), 1);  // throws for settings that are out of range
 }
 

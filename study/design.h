@@ -36,7 +36,7 @@ struct EasyTrials {
 
 /// Where the observer's eyes are.
 struct Viewing {
-    /// From eye to screen, and from one pixel's centre to the next, mm.
+    /// From eye to screen, and from one pixel's centre to the next, mm in [1e-6, 1e9].
     double distance_mm = 600;
     double pixel_pitch_mm = 0.25;
 

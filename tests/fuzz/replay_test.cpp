@@ -1,6 +1,5 @@
-// The fuzz targets without libFuzzer: every input of the corpus, then mutations of it for two seconds a target. The sequence of
-// mutations is the same each time; how far it gets depends on the machine. libFuzzer, which looks for new paths, goes deeper:
-// tests/fuzz/run.
+// The fuzz targets without libFuzzer: every input of the corpus, then mutations of it, the same each time. libFuzzer, which looks
+// for new paths, goes deeper: tests/fuzz/run.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kMutating{2};
+/// As many on every machine, and under sanitizers: a few seconds a target.
+constexpr int kMutations = 3000;
 /// What a file of this size may take, sanitizers and a busy machine allowed for.
 constexpr std::chrono::seconds kHang{20};
 
@@ -96,14 +96,7 @@ TEST_P(Fuzz, Corpus) {
 TEST_P(Fuzz, Mutations) {
     const std::vector<std::string> inputs = corpus();
     Random random(1);
-    const auto end = Clock::now() + kMutating;
-    int runs = 0;
-    while (Clock::now() < end) {
-        ASSERT_TRUE(holds(mutation(inputs, random))) << "mutation " << runs;
-        ++runs;
-    }
-    RecordProperty("mutations", runs);
-    EXPECT_GT(runs, 20);
+    for (int i = 0; i < kMutations; ++i) ASSERT_TRUE(holds(mutation(inputs, random))) << "mutation " << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Target, Fuzz, testing::ValuesIn(kTargets), [](const auto& info) { return info.param.name; });
