@@ -6,28 +6,30 @@ namespace stairstep {
 
 DepthPass::DepthPass() : program_(gl::make_program("depth", {embedded::depth_vert}, {embedded::depth_frag})) {}
 
-void DepthPass::draw(const GpuScene& scene, const SceneState& state, const ShadowMap& map) const {
-    const int width = map.shape.width;
-    const int height = map.shape.height;
-    const glm::dmat4 texel_from_world = stairstep::texel_from_world(map.shape);
-    gl::set_uniform(program_, "map_size", glm::vec2(width, height));
-
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, map.memory.framebuffer.id());
+void DepthPass::clear(const DepthMap& memory, const ShadowMapShape& shape) const {
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, memory.framebuffer.id());
     gl::Enable(GL_SCISSOR_TEST);
-    gl::Scissor(0, 0, width + 2 * kGuardTexels, height + 2 * kGuardTexels);
+    gl::Scissor(0, 0, shape.width + 2 * kGuardTexels, shape.height + 2 * kGuardTexels);
     const float empty = 1;
-    gl::ClearNamedFramebufferfv(map.memory.framebuffer.id(), GL_DEPTH, 0, &empty);
+    gl::ClearNamedFramebufferfv(memory.framebuffer.id(), GL_DEPTH, 0, &empty);
     gl::Disable(GL_SCISSOR_TEST);
-    gl::Viewport(kGuardTexels, kGuardTexels, width, height);
+}
+
+void DepthPass::draw(const GpuScene& scene, const SceneState& state, const DrawList& casters, const DepthMap& memory,
+                     const ShadowMapShape& shape) const {
+    const glm::dmat4 texel_from_world = stairstep::texel_from_world(shape);
+    gl::set_uniform(program_, "map_size", glm::vec2(shape.width, shape.height));
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, memory.framebuffer.id());
+    gl::Viewport(kGuardTexels, kGuardTexels, shape.width, shape.height);
     gl::Enable(GL_DEPTH_TEST);
     // A caster nearer to a spot than its nearest depth still casts.
     gl::Enable(GL_DEPTH_CLAMP);
     gl::UseProgram(program_.id());
     gl::BindVertexArray(scene.vertex_array.id());
-    for (const GpuScene::Draw& draw : scene.draws) {
-        if (!draw.casts) continue;
-        gl::set_uniform(program_, "texel_from_model", glm::mat4(texel_from_world * world_from_model(draw, state)));
-        draw_elements(draw);
+    for (const DrawList::Item& item : casters.items) {
+        const glm::dmat4 texel_from_model = texel_from_world * world_from_model(scene.draws[item.draw], state);
+        gl::set_uniform(program_, "texel_from_model", glm::mat4(texel_from_model));
+        draw_runs(scene, item);
     }
     gl::Disable(GL_DEPTH_CLAMP);
 }

@@ -1,9 +1,8 @@
 // The depth pass: casters as the light sees them.
 #pragma once
 
+#include "renderer/draw_list.h"
 #include "renderer/gl/program.h"
-#include "renderer/gpu_scene.h"
-#include "renderer/scene_state.h"
 #include "renderer/shadow_map.h"
 
 namespace stairstep {
@@ -13,8 +12,12 @@ class DepthPass {
     /// Throws FailureError.
     DepthPass();
 
-    /// Draws the casters into the map, and empties the guard around it.
-    void draw(const GpuScene& scene, const SceneState& state, const ShadowMap& map) const;
+    /// Empties the map and the guard around it.
+    void clear(const DepthMap& memory, const ShadowMapShape& shape) const;
+
+    /// Draws casters into the map.
+    void draw(const GpuScene& scene, const SceneState& state, const DrawList& casters, const DepthMap& memory,
+              const ShadowMapShape& shape) const;
 
   private:
     gl::Program program_;

@@ -1,5 +1,7 @@
 #include "renderer/frame_target.h"
 
+#include <atomic>
+
 #include "renderer/gl/program.h"
 
 namespace stairstep {
@@ -18,7 +20,9 @@ void flip_rows(std::vector<T>& values, size_t row) {
 }  // namespace
 
 FrameTarget make_frame_target(Show show, int width, int height, int samples) {
+    static std::atomic<uint64_t> targets = 0;
     FrameTarget target;
+    target.serial = ++targets;
     target.show = show;
     target.width = width;
     target.height = height;

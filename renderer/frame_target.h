@@ -12,6 +12,8 @@ namespace stairstep {
 enum class Show { colour, visibility };
 
 struct FrameTarget {
+    /// Different for each target that is made: tells whether what was kept of a target was kept of this one.
+    uint64_t serial = 0;
     Show show = Show::colour;
     int width = 0;
     int height = 0;

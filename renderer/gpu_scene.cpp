@@ -1,9 +1,8 @@
 #include "renderer/gpu_scene.h"
 
+#include <atomic>
 #include <bit>
 #include <cstddef>
-
-#include "renderer/facet_vertices.h"
 
 namespace stairstep {
 namespace {
@@ -39,21 +38,19 @@ glm::dmat4 world_from_model(const GpuScene::Draw& draw, const SceneState& state)
     return draw.mover ? state.movers[*draw.mover] : glm::dmat4(1);
 }
 
-void draw_elements(const GpuScene::Draw& draw) {
-    gl::DrawElements(GL_TRIANGLES, draw.index_count, GL_UNSIGNED_INT,
-                     reinterpret_cast<const void*>(draw.first_index * sizeof(uint32_t)));
-}
-
 GpuScene upload(const Scene& scene) {
+    static std::atomic<uint64_t> uploads = 0;
     GpuScene gpu;
+    gpu.serial = ++uploads;
     std::vector<FacetVertex> vertices;
     std::vector<uint32_t> indices;
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.indices.empty()) continue;
-        gpu.draws.push_back({indices.size(), static_cast<GLsizei>(mesh.indices.size()), scene.materials[mesh.material],
-                             mesh.casts, mesh.fades, mesh.mover});
         const auto base = static_cast<uint32_t>(vertices.size());
-        const FacetMesh facets = facet_mesh(mesh);
+        FacetMesh facets = facet_mesh(mesh);
+        std::vector<Cluster> clusters = make_clusters(facets);
+        gpu.draws.push_back(
+            {indices.size(), std::move(clusters), scene.materials[mesh.material], mesh.casts, mesh.fades, mesh.mover});
         for (const uint32_t index : facets.indices) indices.push_back(base + index);
         vertices.insert(vertices.end(), facets.vertices.begin(), facets.vertices.end());
     }

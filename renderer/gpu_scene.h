@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "renderer/clusters.h"
 #include "renderer/gl/objects.h"
 #include "renderer/scene_extents.h"
 #include "renderer/scene_state.h"
@@ -10,9 +11,11 @@
 namespace stairstep {
 
 struct GpuScene {
+    /// Different for each upload: tells whether what was made of a scene was made of this one.
+    uint64_t serial = 0;
     struct Draw {
         size_t first_index = 0;
-        GLsizei index_count = 0;
+        std::vector<Cluster> clusters;
         Material material;
         bool casts = true;
         bool fades = false;
@@ -35,9 +38,6 @@ struct GpuScene {
 
 /// Where a draw's vertices are now.
 glm::dmat4 world_from_model(const GpuScene::Draw& draw, const SceneState& state);
-
-/// Draws its triangles with what is bound.
-void draw_elements(const GpuScene::Draw& draw);
 
 /// Copies the scene to the GPU; an empty one draws nothing. Throws FailureError.
 GpuScene upload(const Scene& scene);

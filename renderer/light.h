@@ -37,6 +37,8 @@ struct Light {
     /// A spot lights what lies within this angle of its axis, degrees in (0, 85].
     double cone_deg = 35;
 
+    bool operator==(const Light&) const = default;
+
     /// Tangent of half the angle under which a directional light is seen.
     double half_tangent() const { return half_side / distance; }
 };

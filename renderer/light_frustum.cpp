@@ -129,6 +129,30 @@ std::vector<glm::dvec4> side_planes(const LightFrustum& frustum, double reach) {
     return planes;
 }
 
+/// A search on a coarse level sees up to this much further than its reach.
+constexpr double kCasterMargin = 1.5;
+
+/// Planes along the light around the hull of the receivers, `reach` away from it along the map's axes, and one behind the farthest.
+std::vector<glm::dvec4> planes_around(const LightFrustum& frustum, const Points& receivers, double reach,
+                                      double farthest_receiver) {
+    const auto& [right, up, back] = frustum.basis;
+    const bool spot = frustum.kind == Light::Kind::spot;
+    const auto plane = [&](const glm::dvec3& normal, double offset) {
+        return glm::dvec4(normal, offset - glm::dot(normal, frustum.position));
+    };
+    std::vector<glm::dvec4> planes{plane(back, farthest_receiver)};
+    const Points hull = convex_hull(receivers);
+    for (size_t i = 0; hull.size() >= 3 && i < hull.size(); ++i) {
+        const glm::dvec2 side = hull[(i + 1) % hull.size()] - hull[i];
+        const glm::dvec2 inward = glm::dvec2(-side.y, side.x) / glm::length(side);
+        const double offset = reach * (std::abs(inward.x) + std::abs(inward.y)) - glm::dot(inward, hull[i]);
+        const glm::dvec3 across = inward.x * right + inward.y * up;
+        // A spot's lengths are tangents: over the depth along it.
+        planes.push_back(spot ? plane(across - offset * back, 0) : plane(across, offset));
+    }
+    return planes;
+}
+
 }  // namespace
 
 glm::dvec3 light_plane_point(const LightFrustum& frustum, const glm::dvec3& world) {
@@ -213,6 +237,10 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
         frustum.basis.right = axis.x * own.right + axis.y * own.up;
         frustum.basis.up = axis.x * own.up - axis.y * own.right;
     }
+    const double least = 1e-6 * (spot ? cone : diagonal) + std::numeric_limits<double>::min();
+    Points receivers;
+    for (const glm::dvec2& point : receiver_plane) receivers.push_back(turned(point, axis));
+    frustum.caster_planes = planes_around(frustum, receivers, kCasterMargin * look_around + least, farthest_receiver);
     Rectangle seen = overlap(around(caster_plane, axis), widened(around(receiver_plane, axis), look_around));
     if (spot) seen = overlap(seen, widened(around(whole_cone, axis), look_around));
     // Nothing that casts a shadow on anything visible: a map of any place will do.
@@ -220,7 +248,6 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
         frustum.shadowless = true;
         seen = {glm::dvec2(-look_around), glm::dvec2(look_around)};
     }
-    const double least = 1e-6 * (spot ? cone : diagonal) + std::numeric_limits<double>::min();
     frustum.low = seen.low - least;
     frustum.high = seen.high + least;
 

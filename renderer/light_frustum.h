@@ -36,6 +36,10 @@ struct LightFrustum {
     /// Distance along the view of the nearest visible receiver that may be shadowed, world units; infinite for none.
     double view_distance = 0;
 
+    /// A convex volume, world space, dot(plane.xyz, p) + plane.w ≥ 0: what lies outside can't shade what is visible. Planes along
+    /// the light around all visible receivers, at their technique's reach, and one behind the farthest of them.
+    std::vector<glm::dvec4> caster_planes{};
+
     glm::dvec2 extent() const { return high - low; }
 };
 

@@ -43,9 +43,10 @@ glm::ivec2 levels_texture_size(int capacity) {
     return {capacity + divided_up(capacity, 2) + divided_up(capacity, 3) + 3 * kGuards, capacity + slack};
 }
 
-MapLevels::MapLevels()
+MapLevels::MapLevels(bool with_ranges)
     : program_(gl::make_program("levels", {embedded::fullscreen_vert}, {embedded::map_level_frag})),
-      no_vertices_(gl::make_vertex_array()) {}
+      no_vertices_(gl::make_vertex_array()),
+      wants_ranges_(with_ranges) {}
 
 void MapLevels::reserve(int capacity) {
     if (capacity == capacity_) return;
@@ -77,7 +78,7 @@ void MapLevels::fill(const ShadowMap& map) {
         gl::set_uniform(program_, "factor", place.factor);
         gl::DrawArrays(GL_TRIANGLES, 0, 3);
     }
-    has_ranges_ = map.shape.texel_count() <= kMostTexelsForRanges;
+    has_ranges_ = wants_ranges_ && map.shape.texel_count() <= kMostTexelsForRanges;
     if (!has_ranges_) return;
     glm::ivec2 used(0);
     for (const LevelPlace& place : places_) {

@@ -40,7 +40,8 @@ glm::ivec2 levels_texture_size(int capacity);
 
 class MapLevels {
   public:
-    MapLevels();
+    /// Without ranges, no window tells that all it holds is lit.
+    explicit MapLevels(bool with_ranges);
 
     /// Fills the levels from the map, with memory for as large maps as the map itself has, and finds the ranges of their depths where there are few enough.
     void fill(const ShadowMap& map);
@@ -61,6 +62,7 @@ class MapLevels {
     /// R32F; empty texels hold 1.
     gl::Texture texture_;
     gl::Framebuffer framebuffer_;
+    bool wants_ranges_;
     DepthRanges ranges_;
     bool has_ranges_ = false;
     std::vector<LevelPlace> places_;

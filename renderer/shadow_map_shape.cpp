@@ -71,6 +71,14 @@ ShadowMapShape map_by_law(const LightFrustum& frustum, const SizeRequest& reques
                          limit_of(size.limit));
 }
 
+bool ShadowMapShape::texels_equal(const ShadowMapShape& other) const {
+    const LightFrustum& a = frustum;
+    const LightFrustum& b = other.frustum;
+    return width == other.width && height == other.height && a.kind == b.kind && a.position == b.position &&
+           a.basis.right == b.basis.right && a.basis.up == b.basis.up && a.basis.back == b.basis.back &&
+           a.low == b.low && a.high == b.high && a.nearest == b.nearest && a.farthest == b.farthest;
+}
+
 glm::dmat4 texel_from_world(const ShadowMapShape& shape) {
     const LightFrustum& frustum = shape.frustum;
     const auto& [right, up, back] = frustum.basis;

@@ -21,6 +21,8 @@ struct ShadowMapShape {
     /// Sides of a texel in the light plane.
     glm::dvec2 texel() const { return frustum.extent() / glm::dvec2(width, height); }
     size_t texel_count() const { return static_cast<size_t>(width) * height; }
+    /// Whether both have the same texels, and store depth alike.
+    bool texels_equal(const ShadowMapShape& other) const;
 };
 
 std::string_view name(ShadowMapShape::Limit limit);

@@ -2,128 +2,141 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace stairstep {
 namespace {
 
-/// Across the longer side, of a map whose need isn't known yet.
-constexpr double kFirstGuessTexels = 512;
 /// Frames that a first frame's size may take to settle: the first guess, what it finds, and what that finds.
 constexpr int kMostSettlingFrames = 4;
 
-/// Half-width of the constant filter in the light plane.
-double light_plane_radius(double radius, const Light& light, const glm::dvec3& middle) {
-    if (light.kind == Light::Kind::directional) return radius;
-    return radius / std::max(depth_along(light, middle), 1e-9);
+const Light& light_of(const SceneState& state, size_t index) {
+    return index == 0 ? state.light : state.more_lights[index - 1];
+}
+
+/// Distances along the view between which all that is visible lies.
+glm::dvec2 visible_range(const GpuScene& scene, const SceneState& state, double aspect) {
+    glm::dvec2 range(state.camera.far, state.camera.near);
+    const std::vector<glm::dvec4> planes = view_planes(state.camera, aspect);
+    for (size_t i = 0; i < scene.extents.parts.size(); ++i) {
+        for (const glm::dvec3& corner :
+             cut_corners(scene.extents.parts[i].meshes, SceneExtents::placement(state, i), planes)) {
+            const double depth = glm::dot(state.camera.eye - corner, state.camera.basis.back);
+            range = {std::min(range.x, depth), std::max(range.y, depth)};
+        }
+    }
+    range = glm::clamp(range, state.camera.near, state.camera.far);
+    return range.x < range.y ? range : glm::dvec2(state.camera.near, state.camera.far);
+}
+
+/// The state as one light sees it that lights a slice of the view, or all of it.
+SceneState seen_by(const SceneState& state, size_t light, const glm::dvec2* slice) {
+    SceneState own = state;
+    own.light = light_of(state, light);
+    own.more_lights.clear();
+    if (slice) {
+        own.camera.near = slice->x;
+        own.camera.far = slice->y;
+    }
+    return own;
+}
+
+/// Milliseconds that something takes on the CPU.
+template <typename Work>
+double timed_ms(Work work) {
+    const auto started = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
 }
 
 }  // namespace
 
 ShadowRenderer::ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                                const SceneState& first, double aspect)
-    : settings_(settings),
-      map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)))),
-      lighting_pass_(std::string(entry.name)) {
-    // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
-    map_.filter_radius = light_plane_radius(settings.radius, first.light, scene.middle);
-    const LightFrustum frustum =
-        fit_light_frustum(scene.extents, first, aspect, settings.fit, [&](auto&) { return map_.filter_radius; });
-    map_.shape =
-        settings.fixed_size
-            ? map_of_size(frustum, *settings.fixed_size)
-            : map_by_law(frustum, {settings.technique.law_slope, map_.filter_radius, 0, 0, settings.largest_size});
-    technique_ = entry.make(settings.technique, map_, !settings.fixed_size);
-    if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
+    : entry_(entry), settings_(settings), lighting_pass_(std::string(entry.name)) {
+    match_lights(scene, first, aspect);
 }
 
-ShadowMapShape ShadowRenderer::choose_shape(const LightFrustum& frustum, double filter_radius, const Camera& camera,
-                                            int height_px) {
-    if (settings_.fixed_size) return map_of_size(frustum, *settings_.fixed_size);
-    const int largest = settings_.largest_size;
-    if (meter_) {
-        if (const std::optional<TileNeeds> needs = meter_->take()) {
-            choice_ = choose_texel(choice_, needed_texel(*needs, settings_.statistic), settings_.patience);
-        }
-        const double longest = std::max(frustum.extent().x, frustum.extent().y);
-        const double texel = choice_.texel > 0 ? choice_.texel : texel_on_ladder(longest / kFirstGuessTexels);
-        return map_of_texels(frustum, texel, largest, ShadowMapShape::Limit::law);
+void ShadowRenderer::match_lights(const GpuScene& scene, const SceneState& state, double aspect) {
+    const size_t wanted = (1 + state.more_lights.size()) * settings_.cascades.count;
+    while (shadows_.size() > wanted) shadows_.pop_back();
+    while (shadows_.size() < wanted) {
+        const size_t light = shadows_.size() / settings_.cascades.count;
+        shadows_.emplace_back(entry_, settings_, scene, seen_by(state, light, nullptr), aspect);
     }
-    // What a pixel covers where shadows are nearest; in the light plane it can only look smaller.
-    double pixel = 0;
-    if (std::isfinite(frustum.view_distance)) {
-        pixel = pixel_footprint(camera, std::max(frustum.view_distance, camera.near), height_px);
-        if (frustum.kind == Light::Kind::spot) pixel /= frustum.farthest;
-    }
-    return map_by_law(frustum, {settings_.technique.law_slope, filter_radius, 0, pixel, largest});
 }
 
-ShadowMapShape ShadowRenderer::fit(const GpuScene& scene, const SceneState& state, double aspect, int height_px) {
-    const double filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
-    const LightFrustum frustum =
-        fit_light_frustum(scene.extents, state, aspect, settings_.fit,
-                          [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); });
-    return choose_shape(frustum, filter_radius, state.camera, height_px);
-}
-
-FrameTime ShadowRenderer::draw_with(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
+FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, const GpuScene& scene, const SceneState& state,
                                     const FrameTarget& target, gl::PassTimer& timer) {
-    const int side = std::max(shape.width, shape.height);
-    if (side > map_.capacity) map_ = reserve_shadow_map(capacity_for(side, std::max(side, settings_.largest_size)));
-    map_.shape = shape;
-    map_.filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
-    FrameTime time;
-    gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    if (technique_->reads_map()) {
-        timer.start();
-        depth_pass_.draw(scene, state, map_);
-        time.depth = timer.stop();
-        timer.start();
-        technique_->prepare(map_);
-        time.prepare = timer.stop();
-    }
-    // A surface of several samples can't be stored.
+    const double aspect = static_cast<double>(target.width) / target.height;
+    const size_t slices = settings_.cascades.count;
+    const size_t lights = 1 + state.more_lights.size();
+    // Surfaces of several samples can't be stored.
     const bool stored = settings_.skips.hidden_surfaces && target.samples == 1;
-    const bool with_need = meter_ && target.samples == 1;
+    FrameTime time;
+
+    match_lights(scene, state, aspect);
+    DrawList surfaces;
+    std::vector<double> borders;
+    time.fit_ms += timed_ms([&] {
+        const std::vector<glm::dvec4> view =
+            settings_.skips.unseen_triangles ? view_planes(state.camera, aspect) : std::vector<glm::dvec4>{};
+        surfaces = draw_list(scene, state, view, Which::all);
+        if (slices == 1) return;
+        const glm::dvec2 range = visible_range(scene, state, aspect);
+        borders = split_distances(range.x, range.y, settings_.cascades);
+    });
+    gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     if (stored) {
         timer.start();
-        surface_pass_.draw(scene, state, target);
+        surface_pass_.draw(scene, state, surfaces, target);
         time.surfaces = timer.stop();
     }
-    timer.start();
-    if (stored) {
-        lighting_pass_.light_stored(scene, state, *technique_, map_, target, with_need);
-    } else {
-        lighting_pass_.draw_lit(scene, state, *technique_, map_, target, with_need);
-    }
-    time.lighting = timer.stop();
-    if (with_need) {
-        timer.start();
-        meter_->measure(target);
-        time.need = timer.stop();
+    for (size_t i = 0; i < shadows_.size(); ++i) {
+        const size_t slice = i % slices;
+        LightPart part;
+        part.index = i / slices;
+        part.count = lights;
+        glm::dvec2 range;
+        if (slices > 1) {
+            range = {borders[slice], borders[slice + 1]};
+            // Roundings at both ends of the view are the first's and the last's.
+            part.slice = glm::dvec2(slice == 0 ? -2 : range.x, slice + 1 == slices ? 1e30 : range.y);
+        }
+        const SceneState own = seen_by(state, part.index, slices > 1 ? &range : nullptr);
+        ShadowMapShape shape;
+        time.fit_ms += timed_ms([&] {
+            shape = i == 0 && first_shape ? *first_shape : shadows_[i].choose(scene, own, aspect, target.height);
+        });
+        shadows_[i].update_map(shape, scene, own, timer, time);
+        // The picture is the whole camera's.
+        SceneState lit = own;
+        lit.camera = state.camera;
+        shadows_[i].light(scene, lit, surfaces, stored, target, part, lighting_pass_, timer, time);
     }
     gl::throw_on_error("drawing a frame");
     return time;
 }
 
-FrameTime ShadowRenderer::draw_fitted(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
-                                      gl::PassTimer& timer) {
-    const auto started = std::chrono::steady_clock::now();
-    const ShadowMapShape shape = fit(scene, state, static_cast<double>(target.width) / target.height, target.height);
-    const std::chrono::duration<double, std::milli> fitting = std::chrono::steady_clock::now() - started;
-    FrameTime time = draw_with(shape, scene, state, target, timer);
-    time.fit_ms = fitting.count();
-    return time;
+FrameTime ShadowRenderer::draw_with(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
+                                    const FrameTarget& target, gl::PassTimer& timer) {
+    return draw_once(&shape, scene, state, target, timer);
 }
 
 FrameTime ShadowRenderer::draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
                                gl::PassTimer& timer) {
-    const bool settles = meter_ && target.samples == 1 && choice_.texel == 0;
-    FrameTime time = draw_fitted(scene, state, target, timer);
+    match_lights(scene, state, static_cast<double>(target.width) / target.height);
+    const auto texels = [&] {
+        std::vector<glm::dvec2> list;
+        for (const LightShadow& shadow : shadows_) list.push_back(shadow.map().shape.texel());
+        return list;
+    };
+    const bool settles = target.samples == 1 && std::any_of(shadows_.begin(), shadows_.end(),
+                                                            [](const LightShadow& one) { return one.is_unsettled(); });
+    FrameTime time = draw_once(nullptr, scene, state, target, timer);
     for (int i = 1; settles && i < kMostSettlingFrames; ++i) {
-        const glm::dvec2 texel = map_.shape.texel();
-        time = draw_fitted(scene, state, target, timer);
-        if (map_.shape.texel() == texel) break;
+        const std::vector<glm::dvec2> before = texels();
+        time = draw_once(nullptr, scene, state, target, timer);
+        if (texels() == before) break;
     }
     return time;
 }

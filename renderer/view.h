@@ -19,6 +19,8 @@ struct Basis {
     glm::dvec3 right;
     glm::dvec3 up;
     glm::dvec3 back;
+
+    bool operator==(const Basis&) const = default;
 };
 
 /// The basis that looks against `direction`, `right` being horizontal; well defined straight up and down as
@@ -36,6 +38,8 @@ struct Camera {
     /// Distances along the view, world units, 0 < near < far.
     double near = 0.1;
     double far = 100;
+
+    bool operator==(const Camera&) const = default;
 };
 
 /// A camera at `eye` that looks at `target`, which must be elsewhere.

@@ -10,6 +10,7 @@
 namespace stairstep {
 namespace {
 
+constexpr std::string_view kVersion = "#version 450 core\n";
 /// Linear; about 86 % grey as displayed.
 constexpr glm::vec3 kBackground(0.70f, 0.74f, 0.79f);
 /// Where a fading mesh begins to and has become the background: from the scene's middle, in its diagonals.
@@ -103,49 +104,57 @@ void set_ray_uniforms(const gl::Program& program, const Camera& camera, const Fr
     gl::set_uniform(program, "ray_up", glm::vec3(pixel * up));
 }
 
-void set_lighting_uniforms(const gl::Program& program, const GpuScene& scene, const SceneState& state) {
+void set_lighting_uniforms(const gl::Program& program, const GpuScene& scene, const SceneState& state,
+                           const LightPart& part) {
+    gl::set_uniform(program, "first_light", part.index == 0 ? 1 : 0);
+    gl::set_uniform(program, "share", static_cast<float>(1.0 / static_cast<double>(part.count)));
+    if (part.slice) gl::set_uniform(program, "slice", glm::vec2(*part.slice));
     gl::set_uniform(program, "background", kBackground);
     gl::set_uniform(program, "middle_from_eye", glm::vec3(scene.middle - state.camera.eye));
     gl::set_uniform(program, "fade_range", glm::vec2(kFade * scene.diagonal));
 }
 
-constexpr std::string_view kVersion = "#version 450 core\n";
-
 /// A shader that knows its light's kind doesn't compute the other's.
-std::string_view preamble(Light::Kind kind) {
-    return kind == Light::Kind::spot ? "#version 450 core\nconst bool spot = true;\n"
-                                     : "#version 450 core\nconst bool spot = false;\n";
+std::string preamble(Light::Kind kind, bool sliced) {
+    const auto constant = [](const char* name, bool value) {
+        return "const bool " + std::string(name) + (value ? " = true;\n" : " = false;\n");
+    };
+    return std::string(kVersion) + constant("spot", kind == Light::Kind::spot) + constant("sliced", sliced);
 }
 
-/// Where the lighting goes, cleared to what shows nothing.
-const gl::Framebuffer& cleared_framebuffer(const FrameTarget& target, bool need) {
-    const gl::Framebuffer& framebuffer = target.samples > 1 ? target.multisample_framebuffer
-                                         : need             ? target.need_framebuffer
-                                                            : target.framebuffer;
+/// Where what is drawn is lit, cleared to what shows nothing.
+void clear(const gl::Framebuffer& framebuffer, const FrameTarget& target, bool need) {
     const glm::vec4 background = target.show == Show::colour ? glm::vec4(kBackground, 1) : glm::vec4(1);
     const glm::vec4 no_need(1e30f);
     const float farthest = 1;
     gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 0, &background.x);
     if (need) gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 1, &no_need.x);
     gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &farthest);
-    return framebuffer;
 }
 
-void draw_surfaces(const gl::Program& program, const GpuScene& scene, const SceneState& state,
+void draw_surfaces(const gl::Program& program, const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
                    const FrameTarget& target) {
     gl::Viewport(0, 0, target.width, target.height);
     gl::Enable(GL_DEPTH_TEST);
     gl::set_uniform(program, "clip_from_eye", clip_from_eye(state.camera, aspect_of(target)));
     gl::UseProgram(program.id());
     gl::BindVertexArray(scene.vertex_array.id());
-    for (const GpuScene::Draw& draw : scene.draws) {
+    for (const DrawList::Item& item : surfaces.items) {
+        const GpuScene::Draw& draw = scene.draws[item.draw];
         gl::set_uniform(program, "eye_from_model", eye_from_model(draw, state));
         gl::set_uniform(program, "base_colour", draw.material.base_colour);
         gl::set_uniform(program, "textured", draw.material.texture ? 1 : 0);
         gl::set_uniform(program, "fading", draw.fades ? 1 : 0);
         if (draw.material.texture) gl::BindTextureUnit(1, scene.textures[*draw.material.texture].id());
-        draw_elements(draw);
+        draw_runs(scene, item);
     }
+}
+
+/// Adds to what is there, for all lights but the first.
+void set_blending(const LightPart& part) {
+    if (part.index == 0) return;
+    gl::Enable(GL_BLEND);
+    gl::BlendFunc(GL_ONE, GL_ONE);
 }
 
 }  // namespace
@@ -155,65 +164,87 @@ SurfacePass::SurfacePass()
           gl::make_program("surface", {embedded::surface_vert},
                            {kVersion, embedded::surface_glsl, embedded::surface_drawn_glsl, embedded::surface_frag})) {}
 
-void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target) const {
+void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
+                       const FrameTarget& target) const {
     const glm::vec4 nothing(0);
     const float farthest = 1;
     // Where there is no plane, the material is never shown.
     gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_COLOR, 0, &nothing.x);
     gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_DEPTH, 0, &farthest);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.surface_framebuffer.id());
-    draw_surfaces(program_, scene, state, target);
+    draw_surfaces(program_, scene, state, surfaces, target);
 }
 
 LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertices_(gl::make_vertex_array()) {}
 
-const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show,
-                                         Light::Kind light) {
-    gl::Program& program =
-        programs_[static_cast<size_t>(source)][static_cast<size_t>(show)][static_cast<size_t>(light)];
+const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show, Light::Kind light,
+                                         const LightPart& part) {
+    std::vector<std::string_view> visibility;
+    switch (part.visibility) {
+        case LightPart::Visibility::computed: visibility = technique.shader(); break;
+        case LightPart::Visibility::all_lit: visibility = {embedded::none_glsl}; break;
+        case LightPart::Visibility::kept: visibility = {embedded::kept_glsl}; break;
+    }
+    Key key{source, show, light, part.slice.has_value(), {}};
+    for (const std::string_view text : visibility) key.technique.push_back(text.data());
+    gl::Program& program = programs_[key];
     if (program.id()) return program;
     const bool drawn = source == Source::drawn;
     const bool colour = show == Show::colour;
-    gl::ShaderParts parts{preamble(light), embedded::surface_glsl,
-                          drawn ? embedded::surface_drawn_glsl : embedded::surface_stored_glsl,
-                          embedded::receiver_glsl};
-    for (const std::string_view part : technique.shader()) parts.push_back(part);
+    const std::string first = preamble(light, key.sliced);
+    gl::ShaderParts parts{first, embedded::surface_glsl,
+                          drawn ? embedded::surface_drawn_glsl : embedded::surface_stored_glsl, embedded::receiver_glsl,
+                          embedded::slice_glsl};
+    parts.insert(parts.end(), visibility.begin(), visibility.end());
     parts.push_back(colour ? embedded::lighting_frag : embedded::visibility_frag);
     return program = gl::make_program(name_ + (colour ? " lighting" : " visibility"),
                                       {drawn ? embedded::surface_vert : embedded::fullscreen_vert}, parts);
 }
 
 void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
-                                const ShadowMap& map, const FrameTarget& target, bool need) {
-    const gl::Program& program = this->program(Source::stored, technique, target.show, state.light.kind);
-    set_lighting_uniforms(program, scene, state);
+                                const ShadowMap& map, const FrameTarget& target, const LightPart& part) {
+    const gl::Program& program = this->program(Source::stored, technique, target.show, state.light.kind, part);
+    set_lighting_uniforms(program, scene, state, part);
     set_receiver_uniforms(program, map, state, target.height);
     set_ray_uniforms(program, state.camera, target);
-    technique.bind(program, map);
-    // Every pixel is written: nothing to clear.
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, (need ? target.need_framebuffer : target.framebuffer).id());
+    if (part.visibility == LightPart::Visibility::computed) technique.bind(program, map);
+    // The first light writes every pixel: nothing to clear.
+    const GLuint own = (part.need ? target.need_framebuffer : target.framebuffer).id();
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, part.framebuffer ? part.framebuffer : own);
     gl::Viewport(0, 0, target.width, target.height);
     gl::Disable(GL_DEPTH_TEST);
     gl::Enable(GL_FRAMEBUFFER_SRGB);
+    set_blending(part);
     gl::UseProgram(program.id());
     gl::BindVertexArray(no_vertices_.id());
     gl::BindTextureUnit(0, map.memory.depth.id());
     gl::BindTextureUnit(4, target.planes.id());
     gl::BindTextureUnit(5, target.materials.id());
+    if (part.visibility == LightPart::Visibility::kept) gl::BindTextureUnit(6, part.kept);
     gl::DrawArrays(GL_TRIANGLES, 0, 3);
+    gl::Disable(GL_BLEND);
 }
 
-void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
-                            const ShadowMap& map, const FrameTarget& target, bool need) {
-    const gl::Program& program = this->program(Source::drawn, technique, target.show, state.light.kind);
-    set_lighting_uniforms(program, scene, state);
+void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
+                            const ShadowTechnique& technique, const ShadowMap& map, const FrameTarget& target,
+                            const LightPart& part) {
+    const gl::Program& program = this->program(Source::drawn, technique, target.show, state.light.kind, part);
+    set_lighting_uniforms(program, scene, state, part);
     set_receiver_uniforms(program, map, state, target.height);
-    technique.bind(program, map);
-    const gl::Framebuffer& framebuffer = cleared_framebuffer(target, need);
+    if (part.visibility == LightPart::Visibility::computed) technique.bind(program, map);
+    const gl::Framebuffer& framebuffer = target.samples > 1 ? target.multisample_framebuffer
+                                         : part.need        ? target.need_framebuffer
+                                                            : target.framebuffer;
+    // Of several slices the first has the nearest surfaces.
+    if (part.index == 0 && (!part.slice || part.slice->x < 0)) clear(framebuffer, target, part.need);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
     gl::Enable(GL_FRAMEBUFFER_SRGB);
+    gl::DepthFunc(GL_LEQUAL);
+    set_blending(part);
     gl::BindTextureUnit(0, map.memory.depth.id());
-    draw_surfaces(program, scene, state, target);
+    draw_surfaces(program, scene, state, surfaces, target);
+    gl::Disable(GL_BLEND);
+    gl::DepthFunc(GL_LESS);
     if (target.samples > 1) {
         gl::BlitNamedFramebuffer(framebuffer.id(), target.framebuffer.id(), 0, 0, target.width, target.height, 0, 0,
                                  target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -1,17 +1,17 @@
-// What the camera sees, lit through a shadow map: drawn at once, or stored first and then lit.
+// What the camera sees, lit through shadow maps: drawn at once, or stored first and then lit.
 //
 // Stored: of each pixel the plane of its nearest triangle (eye space, 32-bit floats: where the pixel's ray meets it is the
 // surface point, as exact as the triangle), its normal and colour. The lighting then runs once a pixel, over whole blocks of
 // pixels: no surface that another one hides is lit, and small triangles don't leave most of a block's lanes idle.
 #pragma once
 
-#include <array>
+#include <map>
+#include <optional>
 #include <string>
 
+#include "renderer/draw_list.h"
 #include "renderer/frame_target.h"
 #include "renderer/gl/program.h"
-#include "renderer/gpu_scene.h"
-#include "renderer/scene_state.h"
 #include "renderer/techniques/technique.h"
 
 namespace stairstep {
@@ -21,11 +21,28 @@ class SurfacePass {
     /// Throws FailureError.
     SurfacePass();
 
-    /// Stores the nearest surfaces in a target of one sample.
-    void draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target) const;
+    /// Stores the nearest of the surfaces in a target of one sample.
+    void draw(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
+              const FrameTarget& target) const;
 
   private:
     gl::Program program_;
+};
+
+/// One light's part of a picture.
+struct LightPart {
+    /// Its place among the lights: the first brings the sky, the others add to it.
+    size_t index = 0;
+    size_t count = 1;
+    /// Only what lies so far along the view, from the first to just below the second.
+    std::optional<glm::dvec2> slice;
+    /// Whether pixels write the texel they need; for targets of one sample.
+    bool need = false;
+    /// Where visibility is known: nothing casts a shadow that is seen, or it is read from `kept`, as it was when it was written.
+    enum class Visibility { computed, all_lit, kept } visibility = Visibility::computed;
+    GLuint kept = 0;
+    /// What stored surfaces are lit into, if not the target's own.
+    GLuint framebuffer = 0;
 };
 
 class LightingPass {
@@ -33,23 +50,35 @@ class LightingPass {
     /// `name` stands for the technique in errors. Throws FailureError.
     explicit LightingPass(std::string name);
 
-    /// Lights the surfaces that SurfacePass has stored. With a `need`, pixels write the texel they need. Throws FailureError
-    /// for a shader that the driver doesn't take.
+    /// Lights the surfaces that SurfacePass has stored with `state.light`. Throws FailureError for a shader that the driver doesn't
+    /// take.
     void light_stored(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
-                      const ShadowMap& map, const FrameTarget& target, bool need);
+                      const ShadowMap& map, const FrameTarget& target, const LightPart& part);
 
-    /// Draws the scene and lights each surface as it is drawn.
-    void draw_lit(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
-                  const ShadowMap& map, const FrameTarget& target, bool need);
+    /// Draws the surfaces and lights each as it is drawn.
+    void draw_lit(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
+                  const ShadowTechnique& technique, const ShadowMap& map, const FrameTarget& target,
+                  const LightPart& part);
 
   private:
     enum class Source { drawn, stored };
-    const gl::Program& program(Source source, const ShadowTechnique& technique, Show show, Light::Kind light);
+    struct Key {
+        Source source;
+        Show show;
+        Light::Kind light;
+        bool sliced;
+        /// What decides visibility, by where its text is.
+        std::vector<const char*> technique;
+
+        auto operator<=>(const Key&) const = default;
+    };
+    const gl::Program& program(Source source, const ShadowTechnique& technique, Show show, Light::Kind light,
+                               const LightPart& part);
 
     std::string name_;
     gl::VertexArray no_vertices_;
-    /// By Source, Show and the light's kind; made when they are first needed.
-    std::array<std::array<std::array<gl::Program, 2>, 2>, 2> programs_;
+    /// Made when they are first needed.
+    std::map<Key, gl::Program> programs_;
 };
 
 }  // namespace stairstep

@@ -13,7 +13,7 @@
 #define STAIRSTEP_GL_FUNCTIONS(X) \
     X(AttachShader) X(BeginQuery) X(BindBuffer) X(BindBufferBase) X(BindFramebuffer) X(BindTextureUnit) \
     X(BindVertexArray) X(BlitNamedFramebuffer) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv) \
-    X(ClipControl) X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateQueries) \
+    X(ClipControl) X(CompileShader) X(CopyImageSubData) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateQueries) \
     X(CreateShader) X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) \
     X(DeleteQueries) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(Disable) X(DrawArrays) \
     X(DrawElements) X(Enable) X(EnableVertexArrayAttrib) X(EndQuery) X(Finish) X(GenerateTextureMipmap) X(GetError) \
@@ -21,7 +21,7 @@
     X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage) X(GetUniformLocation) X(LinkProgram) \
     X(NamedBufferStorage) X(NamedFramebufferDrawBuffers) X(NamedFramebufferReadBuffer) \
     X(NamedFramebufferTexture) X(PixelStorei) X(ProgramUniform1f) X(ProgramUniform1i) X(ProgramUniform2f) \
-    X(ProgramUniform3f) X(ProgramUniform4fv) X(ProgramUniformMatrix3fv) \
+    X(ProgramUniform3f) X(ProgramUniform4fv) X(ProgramUniformMatrix3fv) X(BlendFunc) X(DepthFunc) \
     X(ProgramUniformMatrix4fv) X(Scissor) X(ShaderSource) X(TextureParameterfv) \
     X(TextureParameteri) X(TextureStorage2D) X(TextureStorage2DMultisample) X(TextureSubImage2D) X(UseProgram) \
     X(VertexArrayAttribBinding) X(VertexArrayAttribFormat) X(VertexArrayElementBuffer) X(VertexArrayVertexBuffer) \

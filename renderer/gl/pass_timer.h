@@ -13,6 +13,12 @@ struct PassTime {
     double cpu_ms = 0;
     /// GL_TIME_ELAPSED, ms; never above cpu_ms.
     double gpu_ms = 0;
+
+    PassTime& operator+=(const PassTime& other) {
+        cpu_ms += other.cpu_ms;
+        gpu_ms += other.gpu_ms;
+        return *this;
+    }
 };
 
 /// Times one pass after another: start, draw, stop. A pass may hold others, each with its own timer, last started first

@@ -37,6 +37,8 @@ void require_narrow(const ShadowMap& map) {
 
 class PcfExact final : public ShadowTechnique {
   public:
+    explicit PcfExact(bool skip_even_texels) : skip_even_texels_(skip_even_texels) {}
+
     std::vector<std::string_view> shader() const override {
         return {embedded::ranges_glsl, embedded::box_filter_glsl, embedded::pcf_exact_glsl};
     }
@@ -63,8 +65,8 @@ class PcfExact final : public ShadowTechnique {
 
   private:
     /// Whether windows hold the box, and finding them costs less than they save.
-    static bool has_ranges(const ShadowMap& map) {
-        return 2 * gathers_per_side(map) + kWindowStep - 1 <= kWindowWidth &&
+    bool has_ranges(const ShadowMap& map) const {
+        return skip_even_texels_ && 2 * gathers_per_side(map) + kWindowStep - 1 <= kWindowWidth &&
                map.shape.texel_count() <= kMostTexelsForRanges;
     }
 
@@ -75,6 +77,7 @@ class PcfExact final : public ShadowTechnique {
         return static_cast<int>(std::ceil((width + 1) / 2 - 1e-6));
     }
 
+    bool skip_even_texels_;
     DepthRanges ranges_;
 };
 
@@ -104,7 +107,7 @@ std::unique_ptr<ShadowTechnique> make_pcf(const TechniqueSettings& settings, con
     }
     if (filter == FilterMode::exact) {
         require_narrow(first);
-        return std::make_unique<PcfExact>();
+        return std::make_unique<PcfExact>(settings.skip_even_texels);
     }
     return std::make_unique<PcfSampled>(filter, settings.filter_taps);
 }

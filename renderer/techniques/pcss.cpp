@@ -57,7 +57,8 @@ class PcssSampled final : public ShadowTechnique {
 
 class PcssLevels final : public ShadowTechnique {
   public:
-    explicit PcssLevels(double slope) : slope_(slope) {}
+    explicit PcssLevels(const TechniqueSettings& settings)
+        : levels_(settings.skip_even_texels), slope_(settings.law_slope) {}
 
     std::vector<std::string_view> shader() const override {
         return {embedded::ranges_glsl, embedded::box_filter_glsl, embedded::pcss_levels_glsl};
@@ -96,7 +97,7 @@ class PcssLevels final : public ShadowTechnique {
 std::unique_ptr<ShadowTechnique> make_pcss(const TechniqueSettings& settings, const ShadowMap&, bool by_law) {
     FilterMode filter = settings.filter;
     if (filter == FilterMode::automatic) filter = by_law ? FilterMode::exact : FilterMode::rotated;
-    if (filter == FilterMode::exact) return std::make_unique<PcssLevels>(settings.law_slope);
+    if (filter == FilterMode::exact) return std::make_unique<PcssLevels>(settings);
     return std::make_unique<PcssSampled>(filter, settings);
 }
 

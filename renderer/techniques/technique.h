@@ -51,6 +51,8 @@ struct TechniqueSettings {
     /// the rest is stretched over [0, 1]. Of crane and clutter, 0.1 to 0.2 have the lowest error of the penumbra (more eats into
     /// it), and 0.2 a third of the bleeding that 0 has.
     double bleeding_reduction = 0.2;
+    /// Whether one look at a window of texels that all agree stands for the rest of them.
+    bool skip_even_texels = true;
 };
 
 /// A technique, ready for a scene's maps.

@@ -99,7 +99,7 @@ class FilledLevels : public testing::Test {
 TEST_F(FilledLevels, HoldTheMapsDepthsAtTheirTexelsCentres) {
     constexpr int kCapacity = 150;
     ShadowMap map = reserve_shadow_map(kCapacity);
-    MapLevels levels;
+    MapLevels levels(true);
     const glm::ivec2 size = levels_texture_size(kCapacity);
     Random random(7);
     // A small map after a large one: what the large one left must not show.

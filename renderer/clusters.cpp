@@ -1,0 +1,91 @@
+#include "renderer/clusters.h"
+
+#include <algorithm>
+#include <array>
+
+namespace stairstep {
+namespace {
+
+struct Triangle {
+    std::array<uint32_t, 3> indices;
+    glm::vec3 middle;
+};
+
+Bounds bounds_of(std::span<const Triangle> triangles, const std::vector<FacetVertex>& vertices) {
+    Bounds bounds;
+    for (const Triangle& triangle : triangles) {
+        for (const uint32_t index : triangle.indices) {
+            const glm::dvec3 position = vertices[index].vertex.position;
+            if (!std::isfinite(position.x + position.y + position.z)) {
+                return {glm::dvec3(-INFINITY), glm::dvec3(INFINITY)};
+            }
+            bounds.add(position);
+        }
+    }
+    return bounds;
+}
+
+void split(std::span<Triangle> triangles, const FacetMesh& mesh, size_t first, std::vector<Cluster>& clusters) {
+    if (triangles.size() <= kClusterTriangles) {
+        clusters.push_back({3 * first, 3 * triangles.size(), bounds_of(triangles, mesh.vertices)});
+        return;
+    }
+    Bounds middles;
+    for (const Triangle& triangle : triangles) middles.add(triangle.middle);
+    const glm::dvec3 side = middles.high - middles.low;
+    const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+    const size_t half = triangles.size() / 2;
+    std::nth_element(triangles.begin(), triangles.begin() + half, triangles.end(),
+                     [axis](const Triangle& a, const Triangle& b) { return a.middle[axis] < b.middle[axis]; });
+    split(triangles.first(half), mesh, first, clusters);
+    split(triangles.subspan(half), mesh, first + half, clusters);
+}
+
+/// Whether a plane has all of the box on its outer side.
+bool is_outside(const Bounds& bounds, const glm::dvec4& plane) {
+    const glm::dvec3 normal(plane);
+    if (!std::isfinite(bounds.low.x)) return false;
+    const glm::dvec3 farthest(normal.x > 0 ? bounds.high.x : bounds.low.x, normal.y > 0 ? bounds.high.y : bounds.low.y,
+                              normal.z > 0 ? bounds.high.z : bounds.low.z);
+    return glm::dot(normal, farthest) + plane.w < 0;
+}
+
+}  // namespace
+
+std::vector<Cluster> make_clusters(FacetMesh& mesh) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(mesh.indices.size() / 3);
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::array corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+        glm::vec3 middle(0);
+        for (const uint32_t corner : corners) middle += mesh.vertices[corner].vertex.position / 3.0f;
+        // An order needs numbers.
+        for (const int axis : {0, 1, 2}) {
+            if (!std::isfinite(middle[axis])) middle[axis] = 0;
+        }
+        triangles.push_back({corners, middle});
+    }
+    std::vector<Cluster> clusters;
+    if (!triangles.empty()) split(triangles, mesh, 0, clusters);
+    mesh.indices.clear();
+    for (const Triangle& triangle : triangles) {
+        mesh.indices.insert(mesh.indices.end(), triangle.indices.begin(), triangle.indices.end());
+    }
+    return clusters;
+}
+
+std::vector<IndexRun> runs_within(std::span<const Cluster> clusters, std::span<const glm::dvec4> planes) {
+    std::vector<IndexRun> runs;
+    for (const Cluster& cluster : clusters) {
+        const auto cuts = [&](const glm::dvec4& plane) { return is_outside(cluster.bounds, plane); };
+        if (std::any_of(planes.begin(), planes.end(), cuts)) continue;
+        if (!runs.empty() && runs.back().first_index + runs.back().index_count == cluster.first_index) {
+            runs.back().index_count += cluster.index_count;
+        } else {
+            runs.push_back({cluster.first_index, cluster.index_count});
+        }
+    }
+    return runs;
+}
+
+}  // namespace stairstep

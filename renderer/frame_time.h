@@ -1,0 +1,26 @@
+// What a frame took, pass by pass.
+#pragma once
+
+#include "renderer/gl/pass_timer.h"
+
+namespace stairstep {
+
+struct FrameTime {
+    /// The shadow maps.
+    gl::PassTime depth;
+    /// What the technique makes of them ahead of the lighting.
+    gl::PassTime prepare;
+    /// What the camera sees nearest, where that is stored before it is lit.
+    gl::PassTime surfaces;
+    gl::PassTime lighting;
+    /// What the next frame needs.
+    gl::PassTime need;
+    /// Fits of frusta, choices of sizes and culling, on the CPU, ms.
+    double fit_ms = 0;
+
+    double cpu_ms() const {
+        return depth.cpu_ms + prepare.cpu_ms + surfaces.cpu_ms + lighting.cpu_ms + need.cpu_ms + fit_ms;
+    }
+};
+
+}  // namespace stairstep

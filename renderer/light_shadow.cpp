@@ -1,0 +1,133 @@
+#include "renderer/light_shadow.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stairstep {
+namespace {
+
+/// Across the longer side, of a map whose need isn't known yet.
+constexpr double kFirstGuessTexels = 512;
+
+/// Half-width of the constant filter in the light plane.
+double light_plane_radius(double radius, const Light& light, const glm::dvec3& middle) {
+    if (light.kind == Light::Kind::directional) return radius;
+    return radius / std::max(depth_along(light, middle), 1e-9);
+}
+
+TechniqueSettings technique_settings(const ShadowSettings& settings) {
+    TechniqueSettings technique = settings.technique;
+    technique.skip_even_texels = settings.skips.even_texels;
+    return technique;
+}
+
+}  // namespace
+
+LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
+                         const SceneState& first, double aspect)
+    : settings_(settings),
+      map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)))) {
+    // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
+    map_.filter_radius = light_plane_radius(settings.radius, first.light, scene.middle);
+    const LightFrustum frustum =
+        fit_light_frustum(scene.extents, first, aspect, settings.fit, [&](auto&) { return map_.filter_radius; });
+    map_.shape =
+        settings.fixed_size
+            ? map_of_size(frustum, *settings.fixed_size)
+            : map_by_law(frustum, {settings.technique.law_slope, map_.filter_radius, 0, 0, settings.largest_size});
+    technique_ = entry.make(technique_settings(settings), map_, !settings.fixed_size);
+    if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
+}
+
+ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px) {
+    const double filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
+    const LightFrustum frustum =
+        fit_light_frustum(scene.extents, state, aspect, settings_.fit,
+                          [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); });
+    if (settings_.fixed_size) return map_of_size(frustum, *settings_.fixed_size);
+    const int largest = settings_.largest_size;
+    if (meter_) {
+        if (const std::optional<TileNeeds> needs = meter_->take())
+            last_need_ = needed_texel(*needs, settings_.statistic);
+        // A frame whose pixels are known already needs what it needed.
+        if (last_need_) choice_ = choose_texel(choice_, *last_need_, settings_.patience);
+        const double longest = std::max(frustum.extent().x, frustum.extent().y);
+        const double texel = choice_.texel > 0 ? choice_.texel : texel_on_ladder(longest / kFirstGuessTexels);
+        return map_of_texels(frustum, texel, largest, ShadowMapShape::Limit::law);
+    }
+    // What a pixel covers where shadows are nearest; in the light plane it can only look smaller.
+    double pixel = 0;
+    if (std::isfinite(frustum.view_distance)) {
+        pixel = pixel_footprint(state.camera, std::max(frustum.view_distance, state.camera.near), height_px);
+        if (frustum.kind == Light::Kind::spot) pixel /= frustum.farthest;
+    }
+    return map_by_law(frustum, {settings_.technique.law_slope, filter_radius, 0, pixel, largest});
+}
+
+void LightShadow::update_map(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
+                             gl::PassTimer& timer, FrameTime& time) {
+    const int side = std::max(shape.width, shape.height);
+    if (side > map_.capacity) map_ = reserve_shadow_map(capacity_for(side, std::max(side, settings_.largest_size)));
+    map_.shape = shape;
+    map_.filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
+    const Skips& skips = settings_.skips;
+    if (!technique_->reads_map() || (skips.unseen_shadows && shape.frustum.shadowless)) return;
+    gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    timer.start();
+    const bool drawn = keeper_.update(scene, state, map_, {skips.unseen_triangles, skips.unchanged_maps});
+    time.depth += timer.stop();
+    if (!drawn) return;
+    timer.start();
+    technique_->prepare(map_);
+    time.prepare += timer.stop();
+}
+
+bool LightShadow::Seen::same_as(const Seen& other) const {
+    return scene == other.scene && target == other.target && camera == other.camera && light == other.light &&
+           movers == other.movers && shape.texels_equal(other.shape);
+}
+
+void LightShadow::keep(const Seen& seen, const FrameTarget& target, LightPart& part) {
+    const bool same = seen_ && seen_->same_as(seen);
+    seen_ = seen;
+    if (!same) kept_is_filled_ = false;
+    if (kept_is_filled_) {
+        part.visibility = LightPart::Visibility::kept;
+        part.kept = kept_.id();
+        part.need = false;
+        return;
+    }
+    if (!same) return;
+    if (kept_of_target_ != target.serial) {
+        kept_ = gl::make_texture(GL_R32F, target.width, target.height);
+        kept_framebuffer_ = gl::make_framebuffer({target.colour.id(), target.need.id(), kept_.id()}, target.depth.id());
+        kept_of_target_ = target.serial;
+    }
+    part.framebuffer = kept_framebuffer_.id();
+    kept_is_filled_ = true;
+}
+
+void LightShadow::light(const GpuScene& scene, const SceneState& state, const DrawList& surfaces, bool stored,
+                        const FrameTarget& target, LightPart part, LightingPass& pass, gl::PassTimer& timer,
+                        FrameTime& time) {
+    gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    part.need = meter_ && target.samples == 1;
+    if (settings_.skips.unseen_shadows && map_.shape.frustum.shadowless && technique_->reads_map()) {
+        part.visibility = LightPart::Visibility::all_lit;
+    } else if (settings_.skips.unchanged_pixels && stored && technique_->reads_map()) {
+        keep({scene.serial, target.serial, state.camera, state.light, state.movers, map_.shape}, target, part);
+    }
+    timer.start();
+    if (stored) {
+        pass.light_stored(scene, state, *technique_, map_, target, part);
+    } else {
+        pass.draw_lit(scene, state, surfaces, *technique_, map_, target, part);
+    }
+    time.lighting += timer.stop();
+    if (!part.need) return;
+    timer.start();
+    meter_->measure(target);
+    time.need += timer.stop();
+}
+
+}  // namespace stairstep

@@ -1,0 +1,65 @@
+// How shadows are drawn: with which technique, from maps of which size, and what is left out.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/law/texel_choice.h"
+#include "renderer/cascades.h"
+#include "renderer/light_frustum.h"
+#include "renderer/need_meter.h"
+#include "renderer/techniques/technique.h"
+
+namespace stairstep {
+
+/// What frames leave out because nothing of it would be seen. The picture is the same with and without.
+struct Skips {
+    /// The lighting of surfaces that others hide: surfaces are stored first, then lit.
+    bool hidden_surfaces = true;
+    /// Surfaces outside the view, and casters that can shade nothing visible.
+    bool unseen_triangles = true;
+    /// Maps of lights whose shadows nothing visible can receive.
+    bool unseen_shadows = true;
+    /// Depth passes where nothing changed, and casters that stand still where only others move.
+    bool unchanged_maps = true;
+    /// Filters where the last frame had the same pixels.
+    bool unchanged_pixels = true;
+    /// Filters and searches over texels that are all lit, or all dark.
+    bool even_texels = true;
+
+    bool operator==(const Skips&) const = default;
+};
+
+/// A skip by the name it has on the command line.
+struct SkipName {
+    std::string_view name;
+    bool Skips::*skip;
+};
+
+inline constexpr SkipName kSkips[]{
+    {"hidden-surfaces", &Skips::hidden_surfaces},   {"unseen-triangles", &Skips::unseen_triangles},
+    {"unseen-shadows", &Skips::unseen_shadows},     {"unchanged-maps", &Skips::unchanged_maps},
+    {"unchanged-pixels", &Skips::unchanged_pixels}, {"even-texels", &Skips::even_texels},
+};
+
+/// All skips but those in the list of names, separated by commas; "all" is all of them, and "" none. Throws InputError that lists
+/// the names there are.
+Skips skips_without(const std::string& names);
+
+struct ShadowSettings {
+    TechniqueSettings technique;
+    /// Half-width of a constant filter, world units across the light (at the scene's middle, for a spot), > 0.
+    double radius = 0;
+    /// Side of a fixed, square map; nullopt is the law's.
+    std::optional<int> fixed_size;
+    /// Of the law's.
+    int largest_size = 8192;
+    Fit fit = Fit::axis_aligned;
+    /// For techniques whose radius differs from pixel to pixel.
+    NeedStatistic statistic;
+    TexelPatience patience;
+    Cascades cascades;
+    Skips skips;
+};
+
+}  // namespace stairstep
