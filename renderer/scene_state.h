@@ -17,10 +17,10 @@ namespace stairstep {
 struct SceneState {
     Camera camera;
     Light light;
-    /// Each with a shadow of its own, and as bright as the first.
-    std::vector<Light> more_lights;
     /// World space from the space of a mover's vertices: rotation and translation alone.
     std::vector<glm::dmat4> movers;
+    /// Each with a shadow of its own, and as bright as the first.
+    std::vector<Light> more_lights{};
 };
 
 /// What an animation moves.

@@ -41,7 +41,7 @@ SceneState sheet_state(double height, double eye_height, Light::Kind kind = Ligh
     glm::dmat4 lifted(1);
     lifted[3].y = height;
     // Below the sheet.
-    return {made::camera_down({0, eye_height, 0}), light_above(kind), {}, {lifted}};
+    return {made::camera_down({0, eye_height, 0}), light_above(kind), {lifted}};
 }
 
 ShadowSettings auto_settings(double radius = 0.1) {
