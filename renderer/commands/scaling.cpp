@@ -32,7 +32,7 @@ scaling::ScalingJob job_of(const Options& options) {
             if (options.quick) job.axes.back().values = job.axes.back().quick_values;
         }
     }
-    if (options.size) std::tie(job.setup.width, job.setup.height) = picture_size_of("--size", *options.size);
+    if (options.size) std::tie(job.scenario.width, job.scenario.height) = picture_size_of("--size", *options.size);
     if (options.frames) job.frames = *options.frames;
     job.context = gl::context_kind_named(options.context);
     job.out = options.out;

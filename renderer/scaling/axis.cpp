@@ -11,28 +11,28 @@ namespace {
 
 constexpr double kGoldenAngle_deg = 137.50776405003785;
 
-double set_triangles(Setup& setup, double value) {
-    setup.cells = cells_for(value);
-    return static_cast<double>(triangle_count(make_box_field(setup.cells)));
+double set_triangles(Scenario& scenario, double value) {
+    scenario.cells = cells_for(value);
+    return static_cast<double>(triangle_count(make_box_field(scenario.cells)));
 }
 
-double set_height(Setup& setup, double value) {
-    setup.height = static_cast<int>(value);
+double set_height(Scenario& scenario, double value) {
+    scenario.height = static_cast<int>(value);
     // 16 : 9, even: 854 × 480 as is usual.
-    setup.width = 2 * static_cast<int>(std::lround(value * 8 / 9));
-    return setup.height;
+    scenario.width = 2 * static_cast<int>(std::lround(value * 8 / 9));
+    return scenario.height;
 }
 
-double set_radius(Setup& setup, double value) {
-    return setup.radius = value;
+double set_radius(Scenario& scenario, double value) {
+    return scenario.radius = value;
 }
 
-double set_lights(Setup& setup, double value) {
-    return setup.lights = static_cast<int>(value);
+double set_lights(Scenario& scenario, double value) {
+    return scenario.lights = static_cast<int>(value);
 }
 
-double set_light_size(Setup& setup, double value) {
-    return setup.half_tangent = value;
+double set_light_size(Scenario& scenario, double value) {
+    return scenario.half_tangent = value;
 }
 
 const std::vector<Axis>& list() {
@@ -59,14 +59,14 @@ const std::vector<Axis>& list() {
 
 }  // namespace
 
-SceneState state_of(const Setup& setup) {
+SceneState state_of(const Scenario& scenario) {
     constexpr double kElevation_deg = 48;
     SceneState state;
     state.camera = camera_looking_at({7, 13, 26}, {0, 0.5, 1}, 40, 1, 300);
-    state.light = directional_light({-50, kElevation_deg}, setup.half_tangent);
-    for (int i = 1; i < setup.lights; ++i) {
+    state.light = directional_light({-50, kElevation_deg}, scenario.half_tangent);
+    for (int i = 1; i < scenario.lights; ++i) {
         state.more_lights.push_back(
-            directional_light({-50 + kGoldenAngle_deg * i, kElevation_deg}, setup.half_tangent));
+            directional_light({-50 + kGoldenAngle_deg * i, kElevation_deg}, scenario.half_tangent));
     }
     return state;
 }

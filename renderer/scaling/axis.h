@@ -1,4 +1,4 @@
-// What the cost of shadows may grow with: axes, each of which changes one thing of a setup and leaves the rest.
+// What the cost of shadows may grow with: axes, each of which changes one thing of a scenario and leaves the rest.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 namespace stairstep::scaling {
 
 /// What is drawn: a box field (box_field.h).
-struct Setup {
+struct Scenario {
     int cells = 3;
     /// Of the picture, px.
     int width = 1280;
@@ -26,7 +26,7 @@ struct Setup {
 };
 
 /// The camera and the lights: the first from azimuth −50°, the others by the golden angle around from it, all equally high.
-SceneState state_of(const Setup& setup);
+SceneState state_of(const Scenario& scenario);
 
 struct Axis {
     /// As --axes knows it.
@@ -39,8 +39,8 @@ struct Axis {
     std::vector<double> quick_values;
     /// TechniqueEntry::name of those whose cost may depend on it.
     std::vector<std::string_view> techniques;
-    /// Changes the setup. Returns the value it has then, which is the nearest that there is.
-    double (*apply)(Setup& setup, double value);
+    /// Changes the scenario. Returns the value it has then, which is the nearest that there is.
+    double (*apply)(Scenario& scenario, double value);
 };
 
 /// triangles, height, radius, lights, light-size.

@@ -21,6 +21,13 @@ const bench::TechniqueLook& look_of(const bench::Configuration& configuration) {
     return *found;
 }
 
+/// gnuplot's text between single quotes, where two stand for one.
+std::string quoted(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+    return result + "'";
+}
+
 /// The axis' own values as tics.
 std::string tics_of(const Curve& curve) {
     std::string tics;
@@ -33,8 +40,9 @@ std::string tics_of(const Curve& curve) {
 std::string scaling_figure(const AxisCurves& axis) {
     std::string script =
         "set termoption noenhanced\nset logscale xy\nset grid xtics ytics mytics\nset format xy '%g'\n"
-        "set xlabel '" +
-        axis.quantity + "'\nset ylabel 'frame, ms'\nset key outside right top samplen 2 spacing 1.3 font ',12'\n";
+        "set xlabel " +
+        quoted(axis.quantity) +
+        "\nset ylabel 'frame, ms'\nset key outside right top samplen 2 spacing 1.3 font ',12'\n";
     std::string plot;
     double left = INFINITY;
     double right = 0;
@@ -53,7 +61,7 @@ std::string scaling_figure(const AxisCurves& axis) {
         const std::string colour = " lc rgb '" + std::string(look.colour) + "'";
         plot += (plot.empty() ? "" : ", \\\n  ") + name + " u 1:2 w lp pt " +
                 std::to_string(look.marker + (curve.configuration.side ? 0 : 1)) + " ps 0.9 lw 1.6" + colour +
-                " title '" + label(curve.configuration) + ": " + exponent_text(law) + "', \\\n  " +
+                " title " + quoted(label(curve.configuration) + ": " + exponent_text(law)) + ", \\\n  " +
                 format_number(law.factor) + "*x**(" + format_number(law.exponent) + ") dt 2 lw 0.8" + colour +
                 " notitle";
     }

@@ -25,30 +25,30 @@ using nlohmann::ordered_json;
 /// An axis at one of its values, on the GPU. Scenes and targets are shared by all values that have the same.
 struct Stand {
     double value = 0;
-    Setup setup;
+    Scenario scenario;
     SceneState state;
     std::shared_ptr<const GpuScene> scene;
     std::shared_ptr<const FrameTarget> target;
 
-    bench::Subject subject() const { return {*scene, state, setup.radius}; }
+    bench::Subject subject() const { return {*scene, state, scenario.radius}; }
 };
 
-std::vector<Stand> stands_of(const Axis& axis, const Setup& start) {
+std::vector<Stand> stands_of(const Axis& axis, const Scenario& start) {
     std::map<int, std::shared_ptr<const GpuScene>> scenes;
     std::map<std::pair<int, int>, std::shared_ptr<const FrameTarget>> targets;
     std::vector<Stand> stands;
     for (const double value : axis.values) {
         Stand stand;
-        stand.setup = start;
-        stand.value = axis.apply(stand.setup, value);
-        stand.state = state_of(stand.setup);
-        auto& scene = scenes[stand.setup.cells];
-        if (!scene) scene = std::make_shared<const GpuScene>(upload(make_box_field(stand.setup.cells)));
+        stand.scenario = start;
+        stand.value = axis.apply(stand.scenario, value);
+        stand.state = state_of(stand.scenario);
+        auto& scene = scenes[stand.scenario.cells];
+        if (!scene) scene = std::make_shared<const GpuScene>(upload(make_box_field(stand.scenario.cells)));
         stand.scene = scene;
-        auto& target = targets[{stand.setup.width, stand.setup.height}];
+        auto& target = targets[{stand.scenario.width, stand.scenario.height}];
         if (!target) {
             target = std::make_shared<const FrameTarget>(
-                make_frame_target(Show::colour, stand.setup.width, stand.setup.height, 1));
+                make_frame_target(Show::colour, stand.scenario.width, stand.scenario.height, 1));
         }
         stand.target = target;
         stands.push_back(std::move(stand));
@@ -63,7 +63,7 @@ std::vector<std::vector<bench::Configuration>> groups_of(const std::vector<bench
     double bytes = 0;
     for (const bench::Configuration& one : techniques) {
         double more = 0;
-        for (const Stand& stand : stands) more += bench::map_bytes(one, job.largest_size) * stand.setup.lights;
+        for (const Stand& stand : stands) more += bench::map_bytes(one, job.largest_size) * stand.scenario.lights;
         if (groups.empty() || bytes + more > job.most_map_bytes) {
             groups.emplace_back();
             bytes = 0;
@@ -75,7 +75,7 @@ std::vector<std::vector<bench::Configuration>> groups_of(const std::vector<bench
 }
 
 Point point_of(const Stand& stand, const bench::TimedRenderer& timed) {
-    Point point{stand.value, stand.setup.width, stand.setup.height, 0, 0, bench::median_times(timed.times)};
+    Point point{stand.value, stand.scenario.width, stand.scenario.height, 0, 0, bench::median_times(timed.times)};
     if (timed.renderer.technique().reads_map()) {
         point.map_width = timed.renderer.map().shape.width;
         point.map_height = timed.renderer.map().shape.height;
@@ -85,14 +85,14 @@ Point point_of(const Stand& stand, const bench::TimedRenderer& timed) {
 
 AxisCurves measure(const Axis& axis, const ScalingJob& job, Progress& progress) {
     AxisCurves result{axis.name, axis.quantity, {}};
-    const std::vector<Stand> stands = stands_of(axis, job.setup);
+    const std::vector<Stand> stands = stands_of(axis, job.scenario);
     for (const auto& members : groups_of(techniques_on(axis, job.techniques), stands, job)) {
         std::vector<bench::TimedRenderer> group;
         for (const bench::Configuration& one : members) {
             for (const Stand& stand : stands) {
                 bench::MeasurementSettings settings;
-                settings.width = stand.setup.width;
-                settings.height = stand.setup.height;
+                settings.width = stand.scenario.width;
+                settings.height = stand.scenario.height;
                 settings.largest_size = job.largest_size;
                 group.push_back({one, settled_renderer(one, settings, stand.subject(), *stand.target), stand.subject(),
                                  *stand.target});
@@ -127,12 +127,12 @@ void probe_outputs(const ScalingJob& job) {
     gnuplot_version();
 }
 
-std::string describe(const Setup& setup) {
-    const size_t triangles = triangle_count(make_box_field(setup.cells));
-    return std::to_string(setup.width) + " × " + std::to_string(setup.height) + " pixels, " +
-           std::to_string(triangles) + " triangles, a filter of half-width " + format_number(setup.radius) + " m, " +
-           std::to_string(setup.lights) + (setup.lights == 1 ? " light" : " lights") + " of half-tangent " +
-           format_number(setup.half_tangent);
+std::string describe(const Scenario& scenario) {
+    const size_t triangles = triangle_count(make_box_field(scenario.cells));
+    return std::to_string(scenario.width) + " × " + std::to_string(scenario.height) + " pixels, " +
+           std::to_string(triangles) + " triangles, a filter of half-width " + format_number(scenario.radius) + " m, " +
+           std::to_string(scenario.lights) + (scenario.lights == 1 ? " light" : " lights") + " of half-tangent " +
+           format_number(scenario.half_tangent);
 }
 
 void put(ordered_json& json, const PowerLaw& law) {
@@ -165,8 +165,8 @@ ScalingJob quick_job() {
     ScalingJob job;
     for (Axis& axis : job.axes) axis.values = axis.quick_values;
     std::erase_if(job.techniques, [](const bench::Configuration& one) { return one.entry == "hard"; });
-    job.setup.width = 640;
-    job.setup.height = 360;
+    job.scenario.width = 640;
+    job.scenario.height = 360;
     job.frames = 3;
     return job;
 }
@@ -187,7 +187,7 @@ ordered_json run_scaling(const ScalingJob& job) {
         done.push_back(measure(axis, job, progress));
         write_file(job.out / figure_file(axis.name), scaling_figure(done.back()));
         write_file(job.out / "scaling.csv", scaling_csv(done, setting));
-        write_file(job.out / "index.html", scaling_page(done, setting, describe(job.setup)));
+        write_file(job.out / "index.html", scaling_page(done, setting, describe(job.scenario)));
     }
 
     ordered_json result{{"program", "stairstep-render " STAIRSTEP_VERSION},
@@ -195,7 +195,7 @@ ordered_json run_scaling(const ScalingJob& job) {
                         {"context", setting.context},
                         {"out", job.out.string()},
                         {"frames", job.frames},
-                        {"setup", describe(job.setup)},
+                        {"scenario", describe(job.scenario)},
                         {"axes", ordered_json::array()}};
     for (const AxisCurves& axis : done) {
         ordered_json json{{"axis", axis.axis}, {"quantity", axis.quantity}, {"techniques", ordered_json::array()}};

@@ -18,7 +18,7 @@ struct ScalingJob {
     /// None twice; each axis takes those that it bears on.
     std::vector<bench::Configuration> techniques = all_techniques();
     /// What axes start from.
-    Setup setup;
+    Scenario scenario;
     /// Timed of each technique at each value, ≥ 1, after those in which its map's size settles.
     int frames = 10;
     /// Most texels a side of the law's maps. No more than the fixed maps have.
@@ -36,7 +36,7 @@ ScalingJob quick_job();
 /// Does the job: scaling.csv, index.html, and AXIS.svg for each axis; all grow axis by axis, each file whole or not there. Throws
 /// InputError and FailureError. Returns what `--json` prints:
 ///
-///   program, renderer, context, out, frames, setup
+///   program, renderer, context, out, frames, scenario
 ///   axes   one each: axis, quantity, and techniques: technique, size, taps, exponent, exponent_se, growth, value, frame_ms,
 ///          texels (these three a list), and parts: exponent and exponent_se by name, of parts that take time at all values
 nlohmann::ordered_json run_scaling(const ScalingJob& job);

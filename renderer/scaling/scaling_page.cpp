@@ -54,10 +54,10 @@ std::string section(const AxisCurves& axis) {
 
 }  // namespace
 
-std::string scaling_page(const std::vector<AxisCurves>& axes, const Setting& setting, const std::string& setup) {
+std::string scaling_page(const std::vector<AxisCurves>& axes, const Setting& setting, const std::string& scenario) {
     std::string html(embedded::scaling_page_html);
     replace(html, "setting", escaped(setting.renderer + " · " + setting.context));
-    replace(html, "setup", escaped(setup));
+    replace(html, "scenario", escaped(scenario));
     replace(html, "frames", std::to_string(setting.frames));
     std::string sections;
     for (const AxisCurves& axis : axes) sections += section(axis);

@@ -8,8 +8,8 @@
 
 namespace stairstep::scaling {
 
-/// `setup` says in words what all axes start from. Figures are the files that `figure_file` names.
-std::string scaling_page(const std::vector<AxisCurves>& axes, const Setting& setting, const std::string& setup);
+/// `scenario` says in words what all axes start from. Figures are the files that `figure_file` names.
+std::string scaling_page(const std::vector<AxisCurves>& axes, const Setting& setting, const std::string& scenario);
 
 /// "radius.svg".
 std::string figure_file(const std::string& axis);

@@ -12,7 +12,7 @@
 namespace stairstep::scaling {
 namespace {
 
-std::vector<double> things_of(const Setup& s) {
+std::vector<double> things_of(const Scenario& s) {
     return {static_cast<double>(s.cells),
             static_cast<double>(s.width),
             static_cast<double>(s.height),
@@ -40,8 +40,8 @@ TEST(Axes, ValuesAscendAndAreWhatIsDrawn) {
             ASSERT_GE(values.size(), 3u) << axis.name << ": an exponent's standard error takes three";
             double last = 0;
             for (const double value : values) {
-                Setup setup;
-                const double reached = axis.apply(setup, value);
+                Scenario scenario;
+                const double reached = axis.apply(scenario, value);
                 EXPECT_GT(reached, last) << axis.name;
                 EXPECT_NEAR(reached / value, 1, 0.15) << axis.name << ": the nearest that there is";
                 last = reached;
@@ -52,7 +52,7 @@ TEST(Axes, ValuesAscendAndAreWhatIsDrawn) {
 
 TEST(Axes, ChangeOneThing) {
     for (const Axis& axis : axes()) {
-        Setup low, high;
+        Scenario low, high;
         axis.apply(low, axis.values.front());
         axis.apply(high, axis.values.back());
         const std::vector<double> a = things_of(low), b = things_of(high);
@@ -65,22 +65,22 @@ TEST(Axes, ChangeOneThing) {
 TEST(Axes, PicturesHaveTheUsualWidths) {
     const std::map<double, int> widths{{480, 854}, {720, 1280}, {1080, 1920}, {1440, 2560}, {2160, 3840}};
     for (const double height : axis_named("height").values) {
-        Setup setup;
-        axis_named("height").apply(setup, height);
-        EXPECT_EQ(setup.height, height);
-        EXPECT_EQ(setup.width, widths.at(height));
+        Scenario scenario;
+        axis_named("height").apply(scenario, height);
+        EXPECT_EQ(scenario.height, height);
+        EXPECT_EQ(scenario.width, widths.at(height));
     }
 }
 
 TEST(Axes, LightsAreThereAndApart) {
-    Setup setup;
-    axis_named("lights").apply(setup, 16);
-    const SceneState state = state_of(setup);
+    Scenario scenario;
+    axis_named("lights").apply(scenario, 16);
+    const SceneState state = state_of(scenario);
     ASSERT_EQ(state.more_lights.size(), 15u);
     std::vector<Light> lights = state.more_lights;
     lights.push_back(state.light);
     for (size_t i = 0; i < lights.size(); ++i) {
-        EXPECT_DOUBLE_EQ(lights[i].half_tangent(), setup.half_tangent);
+        EXPECT_DOUBLE_EQ(lights[i].half_tangent(), scenario.half_tangent);
         EXPECT_NEAR(lights[i].basis.back.y, state.light.basis.back.y, 1e-12) << "equally high";
         for (size_t j = 0; j < i; ++j) EXPECT_LT(glm::dot(lights[i].basis.back, lights[j].basis.back), 0.999);
     }
