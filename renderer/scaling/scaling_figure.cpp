@@ -39,13 +39,16 @@ std::string tics_of(const Curve& curve) {
 
 std::string scaling_figure(const AxisCurves& axis) {
     std::string script =
-        "set termoption noenhanced\nset logscale xy\nset grid xtics ytics mytics\nset format xy '%g'\n"
+        "set termoption noenhanced\nset logscale xy\nset grid xtics ytics\nset format xy '%g'\n"
+        "set ytics add (2,5,20,50,200,500,2000,5000,20000,50000)\n"
         "set xlabel " +
         quoted(axis.quantity) +
-        "\nset ylabel 'frame, ms'\nset key outside right top samplen 2 spacing 1.3 font ',12'\n";
+        "\nset ylabel 'frame, ms'\nset key outside right top Left reverse samplen 2 spacing 1.3 font ',12'\n";
     std::string plot;
     double left = INFINITY;
     double right = 0;
+    double low = INFINITY;
+    double high = 0;
     for (size_t i = 0; i < axis.curves.size(); ++i) {
         const Curve& curve = axis.curves[i];
         const std::string name = "$curve" + std::to_string(i);
@@ -54,6 +57,8 @@ std::string scaling_figure(const AxisCurves& axis) {
             script += format_number(point.value) + " " + format_number(point.times.frame.cpu_ms) + "\n";
             left = std::min(left, point.value);
             right = std::max(right, point.value);
+            low = std::min(low, point.times.frame.cpu_ms);
+            high = std::max(high, point.times.frame.cpu_ms);
         }
         script += "EOD\n";
         const bench::TechniqueLook& look = look_of(curve.configuration);
@@ -65,7 +70,8 @@ std::string scaling_figure(const AxisCurves& axis) {
                 format_number(law.factor) + "*x**(" + format_number(law.exponent) + ") dt 2 lw 0.8" + colour +
                 " notitle";
     }
-    script += "set xrange [" + format_number(left / 1.15) + ":" + format_number(right * 1.15) + "]\nset xtics (" +
+    script += "set xrange [" + format_number(left / 1.15) + ":" + format_number(right * 1.15) + "]\nset yrange [" +
+              format_number(low / 1.3) + ":" + format_number(high * 1.3) + "]\nset xtics (" +
               tics_of(axis.curves.front()) + ")\n";
     return draw_svg(script + "plot " + plot + "\n", kWidth, kHeight);
 }

@@ -1,5 +1,6 @@
 #include "renderer/scaling/scaling_page.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "embedded/scaling_page.h"
@@ -8,6 +9,9 @@
 
 namespace stairstep::scaling {
 namespace {
+
+/// Exponents of parts that never take this much of a frame say nothing: they are the clock's.
+constexpr double kLeastShare = 0.01;
 
 void replace(std::string& html, const std::string& place, const std::string& value) {
     const std::string mark = "{{" + place + "}}";
@@ -21,6 +25,15 @@ std::string map_of(const Point& point) {
     return std::to_string(point.map_width) + " × " + std::to_string(point.map_height);
 }
 
+/// What a part takes of a frame, where that is most.
+double largest_share(const Curve& curve, const Part& part) {
+    double share = 0;
+    for (const Point& point : curve.points) {
+        share = std::max(share, part.ms(point.times) / point.times.frame.cpu_ms);
+    }
+    return share;
+}
+
 std::string table(const AxisCurves& axis) {
     std::string html = "<table>\n<thead><tr><th>technique</th>";
     for (const Part& part : parts()) html += "<th>" + escaped(part.name) + "</th>";
@@ -32,7 +45,7 @@ std::string table(const AxisCurves& axis) {
         cell(label(curve.configuration));
         for (const Part& part : parts()) {
             const std::optional<PowerLaw> law = law_of(curve, part);
-            cell(law ? exponent_text(*law) : "");
+            cell(law && largest_share(curve, part) >= kLeastShare ? exponent_text(*law) : "");
         }
         const Point& first = curve.points.front();
         const Point& last = curve.points.back();
