@@ -66,7 +66,7 @@ bool is_shown(const Configuration& configuration) {
 
 Measurement measurement_of(TimedRenderer& timed, const std::vector<TimedRenderer>& group, const FrameTarget& target) {
     Measurement measurement;
-    static_cast<MedianTimes&>(measurement) = median_times(timed.times);
+    static_cast<MedianTimes&>(measurement) = median_times(timed);
     measurement.configuration = timed.configuration;
     const auto baseline = std::ranges::find(group, baseline_of(timed.configuration), &TimedRenderer::configuration);
     assert(baseline != group.end());

@@ -1,5 +1,7 @@
 #include "renderer/bench/timed_renderer.h"
 
+#include <ctime>
+
 #include "renderer/frame_median.h"
 
 namespace stairstep::bench {
@@ -10,9 +12,16 @@ MedianTime median_pass(const std::vector<FrameTime>& times, gl::PassTime FrameTi
             median_of(times, [=](const FrameTime& t) { return (t.*pass).gpu_ms; })};
 }
 
+double processor_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
 }  // namespace
 
-MedianTimes median_times(const std::vector<FrameTime>& times) {
+MedianTimes median_times(const TimedRenderer& timed) {
+    const std::vector<FrameTime>& times = timed.times;
     MedianTimes median;
     median.frame = {
         median_of(times, [](const FrameTime& t) { return t.cpu_ms(); }), median_of(times, [](const FrameTime& t) {
@@ -24,6 +33,7 @@ MedianTimes median_times(const std::vector<FrameTime>& times) {
     median.lighting = median_pass(times, &FrameTime::lighting);
     median.need = median_pass(times, &FrameTime::need);
     median.fit_ms = median_of(times, [](const FrameTime& t) { return t.fit_ms; });
+    median.processor_ms = stairstep::median(timed.processor_ms);
     return median;
 }
 
@@ -31,7 +41,9 @@ void time_in_turn(std::vector<TimedRenderer>& group, int frames, const std::func
     gl::PassTimer timer;
     for (int i = 0; i < frames; ++i) {
         for (TimedRenderer& timed : group) {
+            const double before = processor_ms();
             timed.times.push_back(timed.renderer.draw(timed.subject.scene, timed.subject.state, timed.target, timer));
+            timed.processor_ms.push_back(processor_ms() - before);
             advance();
         }
     }

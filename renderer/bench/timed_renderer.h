@@ -34,10 +34,10 @@ struct MedianTimes {
     MedianTime lighting;
     MedianTime need;
     double fit_ms = 0;
+    /// Of the processor in this process, all threads together: what a frame of a software renderer costs whatever else the
+    /// machine does.
+    double processor_ms = 0;
 };
-
-/// Each figure's own median; of one frame or more.
-MedianTimes median_times(const std::vector<FrameTime>& times);
 
 struct TimedRenderer {
     Configuration configuration;
@@ -45,7 +45,12 @@ struct TimedRenderer {
     Subject subject;
     const FrameTarget& target;
     std::vector<FrameTime> times{};
+    /// Processor time of each.
+    std::vector<double> processor_ms{};
 };
+
+/// Each figure's own median; of one frame or more.
+MedianTimes median_times(const TimedRenderer& timed);
 
 /// Draws `frames` rounds, each a frame of every renderer, and appends the times. `advance` is called after each frame.
 /// Throws FailureError.

@@ -17,6 +17,7 @@ std::span<const Part> parts() {
         Part{"lighting", [](const MedianTimes& t) { return t.lighting.cpu_ms; }},
         Part{"need", [](const MedianTimes& t) { return t.need.cpu_ms; }},
         Part{"fit", [](const MedianTimes& t) { return t.fit_ms; }},
+        Part{"processor", [](const MedianTimes& t) { return t.processor_ms; }},
     };
     return kParts;
 }

@@ -37,7 +37,8 @@ struct AxisCurves {
     std::vector<Curve> curves;
 };
 
-/// A part of a frame, or the whole of it: frame, depth, prepare, surfaces, lighting, need, fit.
+/// A part of a frame, or the whole of it: frame, depth, prepare, surfaces, lighting, need, fit; processor, the whole again but by
+/// the processor's clock (bench::MedianTimes).
 struct Part {
     const char* name;
     double (*ms)(const bench::MedianTimes& times);

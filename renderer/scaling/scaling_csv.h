@@ -2,7 +2,7 @@
 //
 // `technique` names the technique with its filter (bench/configuration.h), `size` is its map's: "auto", the side of a fixed one,
 // or "none". `taps` are the filter's, and a search's likewise, 0 where it takes none. Times are medians, ms: `frame_ms` of the
-// whole, then its parts; `gpu_frame_ms` by the driver's clock. `texels` = `width` · `height` of the map as last drawn.
+// whole, then its parts; `processor_ms` of the whole by the processor's clock; `gpu_frame_ms` by the driver's clock. `texels` = `width` · `height` of the map as last drawn.
 #pragma once
 
 #include <string>

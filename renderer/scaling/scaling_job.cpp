@@ -75,7 +75,7 @@ std::vector<std::vector<bench::Configuration>> groups_of(const std::vector<bench
 }
 
 Point point_of(const Stand& stand, const bench::TimedRenderer& timed) {
-    Point point{stand.value, stand.scenario.width, stand.scenario.height, 0, 0, bench::median_times(timed.times)};
+    Point point{stand.value, stand.scenario.width, stand.scenario.height, 0, 0, bench::median_times(timed)};
     if (timed.renderer.technique().reads_map()) {
         point.map_width = timed.renderer.map().shape.width;
         point.map_height = timed.renderer.map().shape.height;

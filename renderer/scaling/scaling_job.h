@@ -38,7 +38,7 @@ ScalingJob quick_job();
 ///
 ///   program, renderer, context, out, frames, scenario
 ///   axes   one each: axis, quantity, and techniques: technique, size, taps, exponent, exponent_se, growth, value, frame_ms,
-///          texels (these three a list), and parts: exponent and exponent_se by name, of parts that take time at all values
+///          texels (these three a list), and parts: exponent and exponent_se by name, of parts (curves.h) that take time at all values
 nlohmann::ordered_json run_scaling(const ScalingJob& job);
 
 /// The same for people.

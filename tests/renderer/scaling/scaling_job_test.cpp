@@ -27,6 +27,7 @@ bench::MedianTimes planted_times(double scale) {
     times.lighting.cpu_ms = scale * 1e-7 / 3;
     times.need.cpu_ms = 0;
     times.fit_ms = scale * 1e5 / 3;
+    times.processor_ms = scale / 11;
     return times;
 }
 
@@ -44,7 +45,7 @@ TEST(ScalingCsv, ReadsBackAsWritten) {
     const std::string text = scaling_csv(axes, {"a, \"renderer\"", "osmesa", 7});
     EXPECT_TRUE(
         text.starts_with("axis,value,technique,size,frame_ms,depth_ms,prepare_ms,surfaces_ms,lighting_ms,"
-                         "need_ms,fit_ms,texels,"));
+                         "need_ms,fit_ms,processor_ms,texels,"));
     const CsvTable table = CsvTable::parse(text, "scaling.csv");
     ASSERT_EQ(table.row_count(), 9u);
     size_t row = 0;
@@ -63,6 +64,7 @@ TEST(ScalingCsv, ReadsBackAsWritten) {
                 EXPECT_EQ(number("lighting_ms"), point.times.lighting.cpu_ms);
                 EXPECT_EQ(number("need_ms"), 0);
                 EXPECT_EQ(number("fit_ms"), point.times.fit_ms);
+                EXPECT_EQ(number("processor_ms"), point.times.processor_ms);
                 EXPECT_EQ(number("gpu_frame_ms"), point.times.frame.gpu_ms);
                 EXPECT_EQ(number("texels"), 37 * 41);
                 EXPECT_EQ(number("frames"), 7);
@@ -117,6 +119,7 @@ TEST_F(SmallScaling, ExponentsAreThoseOfTheCsv) {
                 EXPECT_EQ(values.back(), one["value"][i]);
                 EXPECT_EQ(times.back(), one["frame_ms"][i]);
                 EXPECT_GT(times.back(), 0);
+                EXPECT_GT(table.number(row, table.column("processor_ms")), 0);
                 EXPECT_EQ(table.number(row, table.column("texels")) > 0, one["technique"] != "none");
             }
             const auto law = fit_power_law(values, times);
