@@ -49,7 +49,7 @@ void add_scaling_command(CLI::App& app) {
     std::string names;
     for (const scaling::Axis& axis : scaling::axes()) names += (names.empty() ? "" : ",") + axis.name;
     command->add_option("--axes", options->axes, "what grows; default: " + names);
-    command->add_flag("--quick", options->quick, "fewer and smaller values, fewer techniques: about a minute");
+    command->add_flag("--quick", options->quick, "fewer and smaller values, fewer techniques: a minute or two");
     command->add_option("--size", options->size,
                         "of the picture, px, where it isn't what grows; default: 1280x720, quick: 640x360");
     command->add_option("--frames", options->frames, "timed of each technique at each value; default: 10, quick: 3")
