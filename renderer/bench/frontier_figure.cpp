@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "renderer/bench/technique_look.h"
 #include "stimuli/io/gnuplot.h"
 #include "stimuli/number.h"
 
@@ -15,19 +16,6 @@ constexpr int kWidth = 1020;
 constexpr int kHeight = 480;
 /// A logarithm needs something to show for an error of none.
 constexpr double kLeastError = 1e-5;
-
-/// Colours that differ for every kind of colour vision (Okabe & Ito 2008); gnuplot's open marker, its filled one is the next.
-struct Look {
-    const char* technique;
-    const char* colour;
-    int marker;
-};
-constexpr std::array kLooks{
-    Look{"none", "#777777", 10},        Look{"hard", "#000000", 8},        Look{"pcss", "#d55e00", 6},
-    Look{"pcss-levels", "#0072b2", 4},  Look{"pcf-exact", "#0072b2", 4},   Look{"pcf-jittered", "#009e73", 6},
-    Look{"pcf-poisson", "#e69f00", 12}, Look{"pcf-rotated", "#d55e00", 6}, Look{"vsm", "#cc79a7", 8},
-    Look{"esm", "#56b4e9", 10},
-};
 
 struct Point {
     double x = 0;
@@ -84,7 +72,7 @@ std::string panel(const std::vector<Measurement>& measurements, bool soft, const
     script += "$" + id + "_frontier << EOD\n" + steps(best, y_end, x_end) + "EOD\n";
     std::string plot = "$" + id + "_frontier u 1:2 w steps lw 1.5 lc rgb '#bbbbbb' title 'frontier'";
     int block = 0;
-    for (const Look& look : kLooks) {
+    for (const TechniqueLook& look : kTechniqueLooks) {
         bool titled = false;
         for (const bool by_law : {false, true}) {
             const auto& rows_of = by_law ? sized : fixed;

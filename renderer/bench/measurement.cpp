@@ -36,17 +36,6 @@ ShadowRenderer make_renderer(const Configuration& configuration, const Measureme
                           aspect_of(settings));
 }
 
-MedianTime median_pass(const std::vector<FrameTime>& times, gl::PassTime FrameTime::*pass) {
-    return {median_of(times, [=](const FrameTime& t) { return (t.*pass).cpu_ms; }),
-            median_of(times, [=](const FrameTime& t) { return (t.*pass).gpu_ms; })};
-}
-
-struct Timed {
-    Configuration configuration;
-    ShadowRenderer renderer;
-    std::vector<FrameTime> times{};
-};
-
 void draw_until_settled(ShadowRenderer& renderer, const Subject& subject, const FrameTarget& target, bool by_need) {
     gl::PassTimer timer;
     int settled = 0;
@@ -63,18 +52,6 @@ bool follows_need(const Configuration& configuration, const ShadowRenderer& rend
     return !configuration.side && renderer.technique().measures_need();
 }
 
-void set_times(Measurement& measurement, const std::vector<FrameTime>& times) {
-    measurement.frame = {median_of(times, [](const FrameTime& t) { return t.cpu_ms(); }),
-                         median_of(times, [](const FrameTime& t) {
-                             return t.depth.gpu_ms + t.prepare.gpu_ms + t.lighting.gpu_ms + t.need.gpu_ms;
-                         })};
-    measurement.depth = median_pass(times, &FrameTime::depth);
-    measurement.prepare = median_pass(times, &FrameTime::prepare);
-    measurement.lighting = median_pass(times, &FrameTime::lighting);
-    measurement.need = median_pass(times, &FrameTime::need);
-    measurement.fit_ms = median_of(times, [](const FrameTime& t) { return t.fit_ms; });
-}
-
 void set_error(Measurement& measurement, const std::vector<float>& truth, const FrameTarget& target) {
     measurement.error = compare_visibility(measurement.visibility, truth);
     measurement.rmse_levels = compare_pictures(visibility_picture(measurement.visibility, target.width, target.height),
@@ -87,13 +64,11 @@ bool is_shown(const Configuration& configuration) {
            configuration == fixed_pcss();
 }
 
-Measurement measurement_of(Timed& timed, const std::vector<Timed>& group, const Subject& subject,
-                           const FrameTarget& target) {
+Measurement measurement_of(TimedRenderer& timed, const std::vector<TimedRenderer>& group, const FrameTarget& target) {
     Measurement measurement;
+    static_cast<MedianTimes&>(measurement) = median_times(timed);
     measurement.configuration = timed.configuration;
-    set_times(measurement, timed.times);
-    const auto baseline =
-        std::ranges::find(group, baseline_of(timed.configuration), [](const Timed& t) { return t.configuration; });
+    const auto baseline = std::ranges::find(group, baseline_of(timed.configuration), &TimedRenderer::configuration);
     assert(baseline != group.end());
     std::vector<double> ratios;
     for (size_t i = 0; i < timed.times.size(); ++i) {
@@ -102,7 +77,7 @@ Measurement measurement_of(Timed& timed, const std::vector<Timed>& group, const 
     measurement.time_ratio = median(std::move(ratios));
 
     gl::PassTimer timer;
-    timed.renderer.draw(subject.scene, subject.state, target, timer);
+    timed.renderer.draw(timed.subject.scene, timed.subject.state, target, timer);
     measurement.visibility = read_visibility(target);
     const ShadowTechnique& technique = timed.renderer.technique();
     const ShadowMap& map = timed.renderer.map();
@@ -156,20 +131,15 @@ std::vector<Measurement> measure(const std::vector<Configuration>& list, const M
     for (size_t left_out = todo.size(); left_out < list.size(); ++left_out) advance();
     std::vector<Measurement> done;
     for (const auto& members : groups_of(todo, settings.most_map_bytes, settings.largest_size)) {
-        std::vector<Timed> group;
+        std::vector<TimedRenderer> group;
         for (const Configuration& one : members) {
-            group.push_back({one, settled_renderer(one, settings, subject, target)});
+            group.push_back({one, settled_renderer(one, settings, subject, target), subject, target});
         }
-        gl::PassTimer timer;
-        for (int i = 0; i < settings.frames; ++i) {
-            for (Timed& timed : group) {
-                timed.times.push_back(timed.renderer.draw(subject.scene, subject.state, target, timer));
-            }
-        }
-        for (Timed& timed : group) {
+        time_in_turn(group, settings.frames, [] {});
+        for (TimedRenderer& timed : group) {
             const bool is_wanted = std::ranges::find(todo, timed.configuration) != todo.end();
             if (!is_wanted || find(done, timed.configuration)) continue;
-            done.push_back(measurement_of(timed, group, subject, visibility));
+            done.push_back(measurement_of(timed, group, visibility));
             set_error(done.back(), truth(truth_of(timed.configuration)), visibility);
             if (!is_shown(timed.configuration)) done.back().visibility = {};
             advance();

@@ -12,8 +12,8 @@
 
 #include "renderer/bench/configuration.h"
 #include "renderer/bench/scene_truth.h"
+#include "renderer/bench/timed_renderer.h"
 #include "renderer/comparison.h"
-#include "renderer/shadow_renderer.h"
 
 namespace stairstep::bench {
 
@@ -31,20 +31,6 @@ struct MeasurementSettings {
     double most_map_bytes = 2.0 * 1024 * 1024 * 1024;
 };
 
-/// A scene on the GPU, in the state that is measured.
-struct Subject {
-    const GpuScene& scene;
-    const SceneState& state;
-    /// Of constant filters, world units.
-    double radius = 0;
-};
-
-/// Median times of a pass, ms: between two waits for the GPU, and by its own clock.
-struct MedianTime {
-    double cpu_ms = 0;
-    double gpu_ms = 0;
-};
-
 /// |ΔV − ΔV_true| (comparison.h) over a scene's motions; see wobble.h.
 struct MotionWobble {
     double light = 0;
@@ -54,7 +40,7 @@ struct MotionWobble {
     double mean() const { return (light + caster + camera) / 3; }
 };
 
-struct Measurement {
+struct Measurement : MedianTimes {
     Configuration configuration;
     /// Of the map as last drawn; 0 where the technique reads none.
     int width = 0;
@@ -62,13 +48,7 @@ struct Measurement {
     std::string limited_by;
     ShadowTechnique::Lookups lookups;
 
-    /// Of the whole frame, the fit among it.
-    MedianTime frame;
-    MedianTime depth;
-    MedianTime prepare;
-    MedianTime lighting;
-    MedianTime need;
-    double fit_ms = 0;
+    /// Against the baseline's frames.
     double time_ratio = 1;
 
     /// Of visibility at pixel centres, against the configuration's own kind of truth.
