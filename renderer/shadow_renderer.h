@@ -32,6 +32,8 @@ struct ShadowSettings {
     /// Of the law's.
     int largest_size = 8192;
     Fit fit = Fit::axis_aligned;
+    /// Of a directional light's map.
+    Warp warp = Warp::none;
     /// For techniques whose radius differs from pixel to pixel.
     NeedStatistic statistic;
     TexelPatience patience;
@@ -59,8 +61,8 @@ struct FrameTime {
 
 class ShadowRenderer {
   public:
-    /// `first` is the first state that will be drawn, in a picture of this aspect. Throws as the technique's make, and
-    /// FailureError.
+    /// `first` is the first state that will be drawn, in a picture of this aspect. Throws as the technique's make, InputError for
+    /// a warp that the technique doesn't take, and FailureError.
     ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                    const SceneState& first, double aspect);
 

@@ -63,8 +63,14 @@ Misplacement misplacement(const ShadowMapShape& shape, const glm::dvec3& eye) {
     const double distance = spot ? from_light : glm::length(from_middle);
     const glm::dvec2 sideways = spot ? glm::dvec2(from_light / frustum.farthest) : glm::abs(glm::dvec2(from_middle));
     const glm::dvec2 eye_texels = sideways / shape.texel();
-    const double largest =
+    double largest =
         std::max({static_cast<double>(shape.width), static_cast<double>(shape.height), eye_texels.x, eye_texels.y});
+    if (frustum.warp.warps()) {
+        // The eye's own place, of which all others are differences, isn't divided; a place near by is, by 1.
+        const glm::dvec4 place = glm::abs(texel_from_world(shape) * glm::dvec4(eye, 1));
+        const double side = std::max(shape.width, shape.height);
+        largest = std::max({side, place.x, place.y, side * place.w});
+    }
     const double depth_scale = (spot ? frustum.farthest * frustum.nearest : 1) / (frustum.farthest - frustum.nearest);
     return {std::ldexp(1.0, -subpixel_bits) + kMapRoundings * kEpsilon * largest,
             kEyeRoundings * kEpsilon * distance * depth_scale};
@@ -110,12 +116,6 @@ void set_lighting_uniforms(const gl::Program& program, const GpuScene& scene, co
 }
 
 constexpr std::string_view kVersion = "#version 450 core\n";
-
-/// A shader that knows its light's kind doesn't compute the other's.
-std::string_view preamble(Light::Kind kind) {
-    return kind == Light::Kind::spot ? "#version 450 core\nconst bool spot = true;\n"
-                                     : "#version 450 core\nconst bool spot = false;\n";
-}
 
 /// Where the lighting goes, cleared to what shows nothing.
 const gl::Framebuffer& cleared_framebuffer(const FrameTarget& target, bool need) {
@@ -167,14 +167,23 @@ void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const Fra
 
 LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertices_(gl::make_vertex_array()) {}
 
-const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show,
-                                         Light::Kind light) {
+LightingPass::Mapping LightingPass::mapping_of(const LightFrustum& frustum) {
+    if (frustum.warp.warps()) return Mapping::warped;
+    return frustum.kind == Light::Kind::spot ? Mapping::spot : Mapping::directional;
+}
+
+const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping) {
+    // A shader that knows how its map is made doesn't compute the others.
+    const std::string_view known = mapping == Mapping::spot ? "const bool spot = true;\nconst bool warped = false;\n"
+                                   : mapping == Mapping::warped
+                                       ? "const bool spot = false;\nconst bool warped = true;\n"
+                                       : "const bool spot = false;\nconst bool warped = false;\n";
     gl::Program& program =
-        programs_[static_cast<size_t>(source)][static_cast<size_t>(show)][static_cast<size_t>(light)];
+        programs_[static_cast<size_t>(source)][static_cast<size_t>(show)][static_cast<size_t>(mapping)];
     if (program.id()) return program;
     const bool drawn = source == Source::drawn;
     const bool colour = show == Show::colour;
-    gl::ShaderParts parts{preamble(light), embedded::surface_glsl,
+    gl::ShaderParts parts{kVersion, known, embedded::surface_glsl,
                           drawn ? embedded::surface_drawn_glsl : embedded::surface_stored_glsl,
                           embedded::receiver_glsl};
     for (const std::string_view part : technique.shader()) parts.push_back(part);
@@ -185,7 +194,7 @@ const gl::Program& LightingPass::program(Source source, const ShadowTechnique& t
 
 void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
                                 const ShadowMap& map, const FrameTarget& target, bool need) {
-    const gl::Program& program = this->program(Source::stored, technique, target.show, state.light.kind);
+    const gl::Program& program = this->program(Source::stored, technique, target.show, mapping_of(map.shape.frustum));
     set_lighting_uniforms(program, scene, state);
     set_receiver_uniforms(program, map, state, target.height);
     set_ray_uniforms(program, state.camera, target);
@@ -205,7 +214,7 @@ void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, 
 
 void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
                             const ShadowMap& map, const FrameTarget& target, bool need) {
-    const gl::Program& program = this->program(Source::drawn, technique, target.show, state.light.kind);
+    const gl::Program& program = this->program(Source::drawn, technique, target.show, mapping_of(map.shape.frustum));
     set_lighting_uniforms(program, scene, state);
     set_receiver_uniforms(program, map, state, target.height);
     technique.bind(program, map);

@@ -44,12 +44,15 @@ class LightingPass {
 
   private:
     enum class Source { drawn, stored };
-    const gl::Program& program(Source source, const ShadowTechnique& technique, Show show, Light::Kind light);
+    /// What maps a surface point to the map, known when a shader is compiled.
+    enum class Mapping { directional, spot, warped };
+    static Mapping mapping_of(const LightFrustum& frustum);
+    const gl::Program& program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping);
 
     std::string name_;
     gl::VertexArray no_vertices_;
-    /// By Source, Show and the light's kind; made when they are first needed.
-    std::array<std::array<std::array<gl::Program, 2>, 2>, 2> programs_;
+    /// By Source, Show and Mapping; made when they are first needed.
+    std::array<std::array<std::array<gl::Program, 3>, 2>, 2> programs_;
 };
 
 }  // namespace stairstep
