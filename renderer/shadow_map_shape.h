@@ -46,7 +46,7 @@ ShadowMapShape map_of_texels(const LightFrustum& frustum, double texel, int larg
 ///
 ///     N = ⌈c·(1 + kd)·L/r⌉,    L = d along the view and right − left (at w = 1) across it
 ///
-/// (light_warp.h), which is never less than without one: a filter of one radius everywhere needs as fine texels everywhere.
+/// (light_warp.h), along the view never less than without one: a filter of one radius everywhere needs as fine texels everywhere.
 /// Throws as shadow_map_size.
 ShadowMapShape map_by_law(const LightFrustum& frustum, const SizeRequest& request);
 

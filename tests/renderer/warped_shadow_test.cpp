@@ -185,8 +185,8 @@ TEST_F(WarpedShadow, ASphereHasNoAcne) {
     }
 }
 
-// Rows of columns along a long ground: of 512² texels, those near the camera are too few without a warp. Within 6 units
-// about 1 in 30 pixels beside the true shadow's edges is wrong with it for 1 in 10 without.
+// Rows of columns along a long ground: of 512² texels, those near the camera are too few without a warp. Within 6 units 277
+// pixels of the ground are wrong without it, and 69 with it.
 TEST_F(WarpedShadow, IsFinerNearTheCamera) {
     std::vector<Mesh> meshes{made::ground(0, 60)};
     for (int i = 0; i < 20; ++i) {
@@ -216,7 +216,7 @@ TEST_F(WarpedShadow, IsFinerNearTheCamera) {
     RecordProperty("wrong_plain", plain);
     RecordProperty("wrong_warped", warped);
     EXPECT_GT(plain, 200);
-    EXPECT_LT(warped, plain / 2) << "of " << plain;
+    EXPECT_LT(warped, plain / 3) << "of " << plain;
 }
 
 TEST_F(WarpedShadow, TheLawsMapHidesItsTexelsEverywhere) {
