@@ -130,6 +130,7 @@ Truth draw_truth(const ImageJob& job, const ShadowSettings& settings, const Subj
     converged.technique.filter = FilterMode::jittered;
     converged.technique.filter_taps = kTruthTaps;
     converged.fixed_size = kTruthSize;
+    converged.warp = Warp::none;
     ShadowRenderer reference(technique_named("pcf"), converged, subject.scene, subject.state,
                              static_cast<double>(job.width) / job.height);
     Progress progress("drawing the truth", 1);
@@ -229,6 +230,7 @@ ordered_json run_image_job(const ImageJob& job) {
     settings.radius = radius;
     settings.largest_size = job.largest_size;
     settings.fit = job.fit;
+    settings.warp = job.warp;
     std::vector<Rendering> renderings;
     for (const auto& resolution : job.resolutions) {
         settings.fixed_size = resolution;
@@ -247,6 +249,7 @@ ordered_json run_image_job(const ImageJob& job) {
     stats["scene"] = job.scene;
     stats["triangles"] = staged.triangles;
     stats["technique"] = job.technique;
+    stats["warp"] = job.warp == Warp::lispsm ? "lispsm" : "none";
     stats["law"] = {{"file", job.law},
                     {"kernel", name(law.kernel)},
                     {"slope", law.slope},

@@ -34,6 +34,8 @@ struct ImageJob {
     /// As TechniqueSettings.
     double bleeding_reduction = TechniqueSettings{}.bleeding_reduction;
     Fit fit = Fit::axis_aligned;
+    /// Of a directional light's map; then the axes are the warp's.
+    Warp warp = Warp::none;
     gl::ContextKind context = gl::ContextKind::osmesa;
     int largest_size = 8192;
     int width = 1280;
@@ -67,6 +69,7 @@ struct ImageJob {
 ///   triangles                  of the scene, without the ground
 ///   radius, radius_px_on_screen
 ///   light_extent               what the map must span along its two axes
+///   warp                       lispsm or none
 ///   law                        file, kernel, slope, slope_for_box, kernel_converted, texel_range_px
 ///   truth                      with `truth` only: file, kind and, for a converged filter, its map's width and height and its
 ///                              taps, or, for pcss, the samples of the area light that rays were traced to (the picture is
@@ -75,7 +78,8 @@ struct ImageJob {
 ///   renderings                 one a resolution:
 ///     resolution, width, height, texels, file
 ///     limited_by               fixed, law, screen (texels of a pixel) or largest_size
-///     radius_in_texels, texel_px_on_screen    along the axis with the coarser texels, at the model's centre
+///     radius_in_texels, texel_px_on_screen    along the axis with the coarser texels (under a warp, its
+///                                           largest), at the model's centre
 ///     extrapolates             whether that texel lies outside the law's range
 ///     filter                   exact, sampled, prefiltered or none; then `gathers` or `taps`: lookups a pixel, and for pcss those of
 ///                              its search, search_gathers or search_taps

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace stairstep {
 namespace {
@@ -87,6 +88,52 @@ glm::dvec2 axis_of_smallest(const Points& casters, const Points& receivers, doub
     return best;
 }
 
+/// The part of a convex polygon that lies in a rectangle (Sutherland & Hodgman 1974).
+Points cut_to(Points polygon, const Rectangle& rectangle) {
+    for (const int axis : {0, 1}) {
+        for (const double sign : {1.0, -1.0}) {
+            const double limit = sign * (sign > 0 ? rectangle.low[axis] : rectangle.high[axis]);
+            Points kept;
+            for (size_t i = 0; i < polygon.size(); ++i) {
+                const glm::dvec2& a = polygon[i];
+                const glm::dvec2& b = polygon[(i + 1) % polygon.size()];
+                const double side_a = sign * a[axis] - limit;
+                const double side_b = sign * b[axis] - limit;
+                if (side_a >= 0) kept.push_back(a);
+                if ((side_a >= 0) != (side_b >= 0)) kept.push_back(a + side_a / (side_a - side_b) * (b - a));
+            }
+            polygon = std::move(kept);
+        }
+    }
+    return polygon;
+}
+
+/// What of the rectangle is within `reach` of receivers; all of it where that is no polygon.
+Points seen_body(const Points& receivers, const glm::dvec2& axis, double reach, const Rectangle& rectangle) {
+    Points around;
+    for (const glm::dvec2& receiver : receivers) {
+        const glm::dvec2 place = turned(receiver, axis);
+        for (const glm::dvec2& to : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+            around.push_back(place + reach * to);
+        }
+    }
+    Points body = cut_to(convex_hull(std::move(around)), rectangle);
+    if (body.size() >= 3) return body;
+    const auto& [low, high] = rectangle;
+    return {low, {high.x, low.y}, high, {low.x, high.y}};
+}
+
+/// A view this much along the light, as the sine of the angle between them, has no direction in the light plane.
+constexpr double kLeastAngle = 1e-6;
+
+/// The axis across the view's direction in the light plane, which then is the other, and the sine of the angle to the light.
+std::pair<glm::dvec2, double> axis_across_view(const Basis& light, const Camera& camera) {
+    const glm::dvec2 along(-glm::dot(light.right, camera.basis.back), -glm::dot(light.up, camera.basis.back));
+    const double sine = glm::length(along);
+    if (!(sine > kLeastAngle)) return {{1, 0}, 0};
+    return {glm::dvec2(along.y, -along.x) / sine, std::min(sine, 1.0)};
+}
+
 /// The casters' diagonal, or what rounding can tell of them where they all lie in one point; above 0.
 double extent_of(const Bounds& casters) {
     if (casters.empty()) return 1;
@@ -164,7 +211,7 @@ glm::dvec3 light_plane_point(const LightFrustum& frustum, const glm::dvec3& worl
 }
 
 LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& state, double aspect, Fit fit,
-                               const Reach& reach) {
+                               const Reach& reach, Warp warp) {
     const Light& light = state.light;
     const bool spot = light.kind == Light::Kind::spot;
     LightFrustum frustum;
@@ -231,8 +278,13 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
     if (spot) frustum.receiver_depth *= frustum.farthest / farthest_receiver;
     const double look_around = reach(frustum);
     glm::dvec2 axis(1, 0);
-    if (fit == Fit::smallest_rectangle && !caster_plane.empty() && !receiver_plane.empty()) {
+    double warp_angle = 0;
+    if (warp == Warp::lispsm && !spot) {
+        std::tie(axis, warp_angle) = axis_across_view(frustum.basis, state.camera);
+    } else if (fit == Fit::smallest_rectangle && !caster_plane.empty() && !receiver_plane.empty()) {
         axis = axis_of_smallest(caster_plane, receiver_plane, look_around);
+    }
+    if (axis != glm::dvec2(1, 0)) {
         const Basis own = frustum.basis;
         frustum.basis.right = axis.x * own.right + axis.y * own.up;
         frustum.basis.up = axis.x * own.up - axis.y * own.right;
@@ -253,12 +305,21 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
 
     for (const glm::dvec4& plane : side_planes(frustum, look_around)) planes.push_back(plane);
     frustum.view_distance = INFINITY;
+    double farthest_view = 0;
     for (size_t i = 0; i < extents.parts.size(); ++i) {
         for (const glm::dvec3& corner :
              cut_corners(extents.parts[i].meshes, SceneExtents::placement(state, i), planes)) {
-            frustum.view_distance =
-                std::min(frustum.view_distance, glm::dot(state.camera.eye - corner, state.camera.basis.back));
+            const double distance = glm::dot(state.camera.eye - corner, state.camera.basis.back);
+            frustum.view_distance = std::min(frustum.view_distance, distance);
+            farthest_view = std::max(farthest_view, distance);
         }
+    }
+    if (warp_angle > 0 && !frustum.shadowless && std::isfinite(frustum.view_distance)) {
+        const double nearest_view = std::max(frustum.view_distance, state.camera.near);
+        frustum.warp = lispsm_warp(seen_body(receiver_plane, axis, look_around, seen),
+                                   {warp_angle, nearest_view, std::max(farthest_view, nearest_view),
+                                    glm::dot(frustum.basis.right, state.camera.eye - frustum.position), look_around},
+                                   least);
     }
     return frustum;
 }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 
+#include "renderer/light_warp.h"
 #include "renderer/scene_extents.h"
 
 namespace stairstep {
@@ -35,12 +36,15 @@ struct LightFrustum {
     double receiver_depth = 1;
     /// Distance along the view of the nearest visible receiver that may be shadowed, world units; infinite for none.
     double view_distance = 0;
+    /// Of a directional light's map; basis.up is then along the view's direction.
+    LightWarp warp;
 
     /// A convex volume, world space, dot(plane.xyz, p) + plane.w ≥ 0: what lies outside can't shade what is visible. Planes along
     /// the light around all visible receivers, at their technique's reach, and one behind the farthest of them.
     std::vector<glm::dvec4> caster_planes{};
 
-    glm::dvec2 extent() const { return high - low; }
+    /// What texels as large as the map's largest would span.
+    glm::dvec2 extent() const { return warp.warps() ? warp.extent() : high - low; }
 };
 
 enum class Fit {
@@ -58,9 +62,10 @@ using Reach = std::function<double(const LightFrustum&)>;
 /// overlaps, and no more. Beyond its sides no visible receiver sees a caster: what lies outside is lit. Depth spans the
 /// casters; receivers may lie beyond its far end: their depth is clamped to it, which leaves every comparison as it was,
 /// so they cost the depth no precision. Casters nearer to a spot than 1/1000 of its farthest are clamped likewise.
-/// `aspect` is the picture's width over its height.
+/// `aspect` is the picture's width over its height. A warp chooses the axes, whatever `fit` is, and fits the map to what is seen
+/// of a perspective view; a spot's map keeps none, being in perspective already, nor has one whose light shines along the view.
 LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& state, double aspect, Fit fit,
-                               const Reach& reach);
+                               const Reach& reach, Warp warp = Warp::none);
 
 /// In the light plane, then the depth along the light.
 glm::dvec3 light_plane_point(const LightFrustum& frustum, const glm::dvec3& world);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stimuli/error.h"
+
 namespace stairstep {
 namespace {
 
@@ -29,21 +31,25 @@ LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& sett
       map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)))) {
     // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
     map_.filter_radius = light_plane_radius(settings.radius, first.light, scene.middle);
-    const LightFrustum frustum =
-        fit_light_frustum(scene.extents, first, aspect, settings.fit, [&](auto&) { return map_.filter_radius; });
+    const LightFrustum frustum = fit_light_frustum(
+        scene.extents, first, aspect, settings.fit, [&](auto&) { return map_.filter_radius; }, settings.warp);
     map_.shape =
         settings.fixed_size
             ? map_of_size(frustum, *settings.fixed_size)
             : map_by_law(frustum, {settings.technique.law_slope, map_.filter_radius, 0, 0, settings.largest_size});
     technique_ = entry.make(technique_settings(settings), map_, !settings.fixed_size);
+    if (settings.warp != Warp::none && !technique_->takes_warp()) {
+        throw InputError("--warp lispsm", std::string(entry.name) + " filters texels that are all of one size",
+                         "use hard or pcf, or --warp none");
+    }
     if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
 }
 
 ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px) {
     const double filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
-    const LightFrustum frustum =
-        fit_light_frustum(scene.extents, state, aspect, settings_.fit,
-                          [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); });
+    const LightFrustum frustum = fit_light_frustum(
+        scene.extents, state, aspect, settings_.fit,
+        [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); }, settings_.warp);
     if (settings_.fixed_size) return map_of_size(frustum, *settings_.fixed_size);
     const int largest = settings_.largest_size;
     if (meter_) {

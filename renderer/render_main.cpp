@@ -35,6 +35,7 @@ struct ImageOptions {
     std::string filter = "auto";
     std::string context = "osmesa";
     std::string fit = "axes";
+    std::string warp = "none";
     std::string camera;
     std::string light;
     std::string show = "colour";
@@ -105,6 +106,7 @@ ImageJob job_of(const ImageOptions& options) {
     job.filter = filter_mode_named(options.filter);
     job.context = gl::context_kind_named(options.context);
     job.fit = options.fit == "smallest" ? Fit::smallest_rectangle : Fit::axis_aligned;
+    job.warp = options.warp == "lispsm" ? Warp::lispsm : Warp::none;
     if (job.light_half_tangent && !(*job.light_half_tangent >= 0 && *job.light_half_tangent <= 1)) {
         throw InputError("--light-size " + format_number(*job.light_half_tangent), "must be from 0 to 1",
                          "use for example 0.05; the sun's is 0.00465");
@@ -176,6 +178,11 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
         ->check(CLI::Number);
     command->add_option("--fit", options.fit, "the map lies along the light's axes, or as makes it smallest")
         ->check(CLI::IsMember({"axes", "smallest"}))
+        ->capture_default_str();
+    command
+        ->add_option("--warp", options.warp,
+                     "lispsm makes texels smaller near the camera (hard and pcf under a directional light)")
+        ->check(CLI::IsMember({"none", "lispsm"}))
         ->capture_default_str();
     command->add_option("--context", options.context, "osmesa (no display), egl (no display, GPU) or window")
         ->capture_default_str();

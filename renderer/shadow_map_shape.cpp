@@ -51,6 +51,12 @@ ShadowMapShape map_of_texels(const LightFrustum& frustum, double texel, int larg
         limit = ShadowMapShape::Limit::largest_size;
     }
     ShadowMapShape shape{frustum, 1, 1, limit};
+    if (frustum.warp.warps()) {
+        const glm::dvec2 count = glm::ceil(frustum.extent() / texel);
+        shape.width = static_cast<int>(std::clamp(count.x, 1.0, static_cast<double>(largest_size)));
+        shape.height = static_cast<int>(std::clamp(count.y, 1.0, static_cast<double>(largest_size)));
+        return shape;
+    }
     for (const int axis : {0, 1}) {
         const double first = std::floor(frustum.low[axis] / texel);
         const double last = std::ceil(frustum.high[axis] / texel);
@@ -76,7 +82,7 @@ bool ShadowMapShape::texels_equal(const ShadowMapShape& other) const {
     const LightFrustum& b = other.frustum;
     return width == other.width && height == other.height && a.kind == b.kind && a.position == b.position &&
            a.basis.right == b.basis.right && a.basis.up == b.basis.up && a.basis.back == b.basis.back &&
-           a.low == b.low && a.high == b.high && a.nearest == b.nearest && a.farthest == b.farthest;
+           a.low == b.low && a.high == b.high && a.nearest == b.nearest && a.farthest == b.farthest && a.warp == b.warp;
 }
 
 glm::dmat4 texel_from_world(const ShadowMapShape& shape) {
@@ -93,7 +99,13 @@ glm::dmat4 texel_from_world(const ShadowMapShape& shape) {
     const auto along = [&](const glm::dvec3& axis, double offset) {
         return glm::dvec4(axis, -glm::dot(axis, frustum.position) + offset);
     };
-    if (frustum.kind == Light::Kind::directional) {
+    if (const LightWarp& warp = frustum.warp; warp.warps()) {
+        const glm::dvec4 from_first = along(up, -warp.first);
+        w += warp.curvature * from_first;
+        x = shape.width / (warp.right - warp.left) * (along(right, -warp.middle) - warp.left * w);
+        y = shape.height * (1 / warp.length + warp.curvature) * from_first;
+        depth = along(-back, -near) / (far - near);
+    } else if (frustum.kind == Light::Kind::directional) {
         x = scale.x * along(right, -frustum.low.x);
         y = scale.y * along(up, -frustum.low.y);
         depth = along(-back, -near) / (far - near);

@@ -10,8 +10,8 @@ namespace stairstep {
 
 class ShadowRenderer {
   public:
-    /// `first` is the first state that will be drawn, in a picture of this aspect. Throws as the technique's make, and
-    /// FailureError.
+    /// `first` is the first state that will be drawn, in a picture of this aspect. Throws as the technique's make, InputError for
+    /// a warp that the technique doesn't take, and FailureError.
     ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                    const SceneState& first, double aspect);
 

@@ -55,6 +55,8 @@ struct ShadowSettings {
     /// Of the law's.
     int largest_size = 8192;
     Fit fit = Fit::axis_aligned;
+    /// Of a directional light's map.
+    Warp warp = Warp::none;
     /// For techniques whose radius differs from pixel to pixel.
     NeedStatistic statistic;
     TexelPatience patience;

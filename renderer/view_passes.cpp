@@ -64,8 +64,14 @@ Misplacement misplacement(const ShadowMapShape& shape, const glm::dvec3& eye) {
     const double distance = spot ? from_light : glm::length(from_middle);
     const glm::dvec2 sideways = spot ? glm::dvec2(from_light / frustum.farthest) : glm::abs(glm::dvec2(from_middle));
     const glm::dvec2 eye_texels = sideways / shape.texel();
-    const double largest =
+    double largest =
         std::max({static_cast<double>(shape.width), static_cast<double>(shape.height), eye_texels.x, eye_texels.y});
+    if (frustum.warp.warps()) {
+        // The eye's own place, of which all others are differences, isn't divided; a place near by is, by 1.
+        const glm::dvec4 place = glm::abs(texel_from_world(shape) * glm::dvec4(eye, 1));
+        const double side = std::max(shape.width, shape.height);
+        largest = std::max({side, place.x, place.y, side * place.w});
+    }
     const double depth_scale = (spot ? frustum.farthest * frustum.nearest : 1) / (frustum.farthest - frustum.nearest);
     return {std::ldexp(1.0, -subpixel_bits) + kMapRoundings * kEpsilon * largest,
             kEyeRoundings * kEpsilon * distance * depth_scale};
@@ -114,12 +120,12 @@ void set_lighting_uniforms(const gl::Program& program, const GpuScene& scene, co
     gl::set_uniform(program, "fade_range", glm::vec2(kFade * scene.diagonal));
 }
 
-/// A shader that knows its light's kind doesn't compute the other's.
-std::string preamble(Light::Kind kind, bool sliced) {
+/// A shader that knows how its map is made doesn't compute the others.
+std::string preamble(bool spot, bool warped, bool sliced) {
     const auto constant = [](const char* name, bool value) {
         return "const bool " + std::string(name) + (value ? " = true;\n" : " = false;\n");
     };
-    return std::string(kVersion) + constant("spot", kind == Light::Kind::spot) + constant("sliced", sliced);
+    return std::string(kVersion) + constant("spot", spot) + constant("warped", warped) + constant("sliced", sliced);
 }
 
 /// Where what is drawn is lit, cleared to what shows nothing.
@@ -177,7 +183,12 @@ void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const Dra
 
 LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertices_(gl::make_vertex_array()) {}
 
-const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show, Light::Kind light,
+LightingPass::Mapping LightingPass::mapping_of(const LightFrustum& frustum) {
+    if (frustum.warp.warps()) return Mapping::warped;
+    return frustum.kind == Light::Kind::spot ? Mapping::spot : Mapping::directional;
+}
+
+const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping,
                                          const LightPart& part) {
     std::vector<std::string_view> visibility;
     switch (part.visibility) {
@@ -185,13 +196,13 @@ const gl::Program& LightingPass::program(Source source, const ShadowTechnique& t
         case LightPart::Visibility::all_lit: visibility = {embedded::none_glsl}; break;
         case LightPart::Visibility::kept: visibility = {embedded::kept_glsl}; break;
     }
-    Key key{source, show, light, part.slice.has_value(), {}};
+    Key key{source, show, mapping, part.slice.has_value(), {}};
     for (const std::string_view text : visibility) key.technique.push_back(text.data());
     gl::Program& program = programs_[key];
     if (program.id()) return program;
     const bool drawn = source == Source::drawn;
     const bool colour = show == Show::colour;
-    const std::string first = preamble(light, key.sliced);
+    const std::string first = preamble(mapping == Mapping::spot, mapping == Mapping::warped, key.sliced);
     gl::ShaderParts parts{first, embedded::surface_glsl,
                           drawn ? embedded::surface_drawn_glsl : embedded::surface_stored_glsl, embedded::receiver_glsl,
                           embedded::slice_glsl};
@@ -203,7 +214,8 @@ const gl::Program& LightingPass::program(Source source, const ShadowTechnique& t
 
 void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
                                 const ShadowMap& map, const FrameTarget& target, const LightPart& part) {
-    const gl::Program& program = this->program(Source::stored, technique, target.show, state.light.kind, part);
+    const gl::Program& program =
+        this->program(Source::stored, technique, target.show, mapping_of(map.shape.frustum), part);
     set_lighting_uniforms(program, scene, state, part);
     set_receiver_uniforms(program, map, state, target.height);
     set_ray_uniforms(program, state.camera, target);
@@ -228,7 +240,8 @@ void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, 
 void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
                             const ShadowTechnique& technique, const ShadowMap& map, const FrameTarget& target,
                             const LightPart& part) {
-    const gl::Program& program = this->program(Source::drawn, technique, target.show, state.light.kind, part);
+    const gl::Program& program =
+        this->program(Source::drawn, technique, target.show, mapping_of(map.shape.frustum), part);
     set_lighting_uniforms(program, scene, state, part);
     set_receiver_uniforms(program, map, state, target.height);
     if (part.visibility == LightPart::Visibility::computed) technique.bind(program, map);

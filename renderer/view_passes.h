@@ -62,17 +62,21 @@ class LightingPass {
 
   private:
     enum class Source { drawn, stored };
+    /// How places in the map follow from places in the world.
+    enum class Mapping { directional, warped, spot };
+    static Mapping mapping_of(const LightFrustum& frustum);
+
     struct Key {
         Source source;
         Show show;
-        Light::Kind light;
+        Mapping mapping;
         bool sliced;
         /// What decides visibility, by where its text is.
         std::vector<const char*> technique;
 
         auto operator<=>(const Key&) const = default;
     };
-    const gl::Program& program(Source source, const ShadowTechnique& technique, Show show, Light::Kind light,
+    const gl::Program& program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping,
                                const LightPart& part);
 
     std::string name_;

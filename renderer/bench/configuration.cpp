@@ -72,8 +72,9 @@ Configuration baseline_of(const Configuration& configuration) {
 
 std::vector<Configuration> all_configurations() {
     std::vector<Configuration> list{{"none", "none", FilterMode::automatic, 1, 0}};
-    const auto add = [&](const std::string& technique, const std::string& entry, FilterMode filter, int taps) {
-        for (const auto& side : kSides) list.push_back({technique, entry, filter, side, taps});
+    const auto add = [&](const std::string& technique, const std::string& entry, FilterMode filter, int taps,
+                         Warp warp = Warp::none) {
+        for (const auto& side : kSides) list.push_back({technique, entry, filter, side, taps, warp});
     };
     add("hard", "hard", FilterMode::automatic, 0);
     add("pcf-exact", "pcf", FilterMode::exact, 0);
@@ -83,6 +84,8 @@ std::vector<Configuration> all_configurations() {
     for (const int taps : kTaps) add("pcss", "pcss", FilterMode::rotated, taps);
     add("pcss-levels", "pcss", FilterMode::exact, 0);
     for (const char* technique : {"vsm", "esm"}) add(technique, technique, FilterMode::automatic, 0);
+    add("hard-lispsm", "hard", FilterMode::automatic, 0, Warp::lispsm);
+    add("pcf-lispsm", "pcf", FilterMode::exact, 0, Warp::lispsm);
     return list;
 }
 

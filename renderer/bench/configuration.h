@@ -1,7 +1,9 @@
 // What a bench compares: techniques with their filter, shadow-map sizes and taps.
 //
 // Names, as bench.csv has them: none · hard · pcf-exact, pcf-jittered, pcf-poisson, pcf-rotated · pcss (rotated taps, the
-// classic) · pcss-levels (exact, at the level of the map where the law puts each pixel's filter) · vsm, esm.
+// classic) · pcss-levels (exact, at the level of the map where the law puts each pixel's filter) · vsm, esm · hard-lispsm and
+// pcf-lispsm (exact) in a map under light_warp.h's warp, of scenes with a directional light; of a spot's they are hard and
+// pcf-exact.
 #pragma once
 
 #include <optional>
@@ -9,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/light_warp.h"
 #include "renderer/techniques/technique.h"
 
 namespace stairstep::bench {
@@ -34,6 +37,7 @@ struct Configuration {
     std::optional<int> side;
     /// Taps of the filter, and of pcss's blocker search, where they take taps; else 0.
     int taps = 0;
+    Warp warp = Warp::none;
 
     bool operator==(const Configuration&) const = default;
 };
@@ -53,7 +57,7 @@ Configuration fixed_pcf();
 Configuration auto_pcss();
 Configuration fixed_pcss();
 
-/// All techniques × {512, 1024, 2048, 4096, 8192, auto} × {9, 25, 49 taps}; none, which has no map, once.
+/// All techniques, hard and pcf-exact also under a warp, × {512, 1024, 2048, 4096, 8192, auto} × {9, 25, 49 taps}; none, which has no map, once.
 std::vector<Configuration> all_configurations();
 
 /// The few that answer the bars, with hard shadows and none beside them.

@@ -31,6 +31,7 @@ ShadowRenderer make_renderer(const Configuration& configuration, const Measureme
     if (configuration.taps > 0) shadow.technique.filter_taps = shadow.technique.search_taps = configuration.taps;
     shadow.radius = subject.radius;
     shadow.fixed_size = configuration.side;
+    shadow.warp = configuration.warp;
     shadow.largest_size = settings.largest_size;
     return ShadowRenderer(technique_named(configuration.entry), shadow, subject.scene, subject.state,
                           aspect_of(settings));
@@ -97,12 +98,20 @@ std::vector<Configuration> feasible(const std::vector<Configuration>& list, cons
         return one.entry == "pcf" && one.filter == FilterMode::exact && one.side;
     };
     if (std::ranges::none_of(list, is_fixed_exact)) return list;
-    // The law's map has the same frustum as a fixed one.
-    const ShadowRenderer renderer = settled_renderer(auto_pcf(), settings, subject, target);
-    const glm::dvec2 extent = renderer.map().shape.frustum.extent();
+    // The law's map has the same frustum as a fixed one. What the smallest texels of a map of one would be, in filter widths.
+    const auto filters_across = [&](Warp warp) {
+        Configuration by_law = auto_pcf();
+        by_law.warp = warp;
+        const ShadowRenderer renderer = settled_renderer(by_law, settings, subject, target);
+        const glm::dvec2 smallest = map_of_size(renderer.map().shape.frustum, 1).smallest_texel();
+        return 2 * renderer.map().filter_radius / std::min(smallest.x, smallest.y);
+    };
+    const double across = filters_across(Warp::none);
+    const bool warps = std::ranges::any_of(list, [](const Configuration& one) { return one.warp != Warp::none; });
+    const double across_warped = warps ? filters_across(Warp::lispsm) : across;
     std::vector<Configuration> result;
     for (const Configuration& one : list) {
-        const double width = 2 * renderer.map().filter_radius * one.side.value_or(0) / std::min(extent.x, extent.y);
+        const double width = one.side.value_or(0) * (one.warp == Warp::none ? across : across_warped);
         if (is_fixed_exact(one) && width > kWidestExact_texels) {
             notes.push_back(label(one) + " is left out: its filter is " + format_fixed(width, 0) + " texels wide");
         } else {

@@ -2,7 +2,8 @@
 //
 //     float visibility(Receiver receiver);      1 lit, 0 in shadow
 //
-// Ahead of it go the version and `const bool spot`: whether the light is a spot, known when the shader is compiled. Texel space
+// Ahead of it go the version and what is known when the shader is compiled: `const bool spot`, whether the light is a spot, and
+// `const bool warped`, whether the map is one of light_warp.h. Texel space
 // is shadow_map_shape.h's: x and y in texels of the shadow map, depth in [0, 1]. Eye space has the world's axes around the
 // camera's eye: small numbers keep their precision, wherever the world's origin is.
 
@@ -13,6 +14,8 @@ struct Receiver {
     vec2 slope;
     // How far two computations of the same point's depth may differ.
     float tolerance;
+    // Texels along x and y of a length in the light plane, of the number that it has where the map's texels are smallest.
+    vec2 scale;
 };
 
 float visibility(Receiver receiver);
@@ -59,17 +62,21 @@ float in_cone(vec3 to_light) { return spot ? smoothstep(cone.y, cone.x, dot(to_l
 // The receiver at a surface point with this normal, which faces the light.
 Receiver receiver_at(vec3 from_eye, vec3 normal, vec3 to_light) {
     vec4 point = texel_from_eye * vec4(from_eye, 1);
-    vec3 texel = spot ? point.xyz / point.w : point.xyz;
+    // What lies far before a warped map's near end is off the map, and stays so: it has no texel where w is 0.
+    if (warped) point.w = max(point.w, 0.5);
+    vec3 texel = spot || warped ? point.xyz / point.w : point.xyz;
     // Steeper than 87° (1 : 20) half a subpixel moves the plane by more than a texel's side, and no light arrives.
     normal += max(0.05 - dot(normal, to_light), 0) * to_light;
     vec3 plane = mat3(texel_plane_from_eye) * normal;
-    if (spot) plane -= dot(normal, from_eye) * texel_plane_from_eye[3].xyz;
+    if (spot || warped) plane -= dot(normal, from_eye) * texel_plane_from_eye[3].xyz;
     vec2 slope = -plane.xy / plane.z;
     // The depth stored for a texel is that of the caster's plane, up to where its vertices were moved, and rounding: some units
     // in the last place of the depth.
     float steepness = abs(slope.x) + abs(slope.y);
     float depth_error = spot ? misplaced.y / (point.w * point.w) : misplaced.y;
-    return Receiver(texel.xy, texel.z, slope, steepness * misplaced.x + depth_error + 16 * 1.2e-7);
+    float nearness = warped ? 1 / max(point.w, 1) : 1;
+    return Receiver(texel.xy, texel.z, slope, steepness * misplaced.x + depth_error + 16 * 1.2e-7,
+                    vec2(nearness, nearness * nearness));
 }
 
 // `covered` at a surface point: its pixel's area on the surface is pixel_area·z³/|n·p|, z being p's depth along the view. Across a

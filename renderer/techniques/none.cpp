@@ -8,6 +8,7 @@ class None final : public ShadowTechnique {
   public:
     std::vector<std::string_view> shader() const override { return {embedded::none_glsl}; }
     bool reads_map() const override { return false; }
+    bool takes_warp() const override { return true; }
     double reach(const LightFrustum&, double) const override { return 0; }
     Lookups lookups(const ShadowMap&) const override { return {}; }
 };

@@ -20,8 +20,9 @@ constexpr double kWidestExact = 128;
 /// Finding the ranges of more takes as long as they save.
 constexpr size_t kMostTexelsForRanges = size_t{4} << 20;
 
+/// Of a warped map, where its texels are smallest.
 glm::dvec2 radius_texels(const ShadowMap& map) {
-    return map.filter_radius / map.shape.texel();
+    return map.filter_radius / map.shape.smallest_texel();
 }
 
 double width_texels(const ShadowMap& map) {
@@ -47,6 +48,8 @@ class PcfExact final : public ShadowTechnique {
         if (!has_ranges(map)) return;
         ranges_.fill(map.memory.depth.id(), glm::ivec2(map.shape.width, map.shape.height) + 2 * kGuardTexels);
     }
+
+    bool takes_warp() const override { return true; }
 
     double reach(const LightFrustum&, double filter_radius) const override { return filter_radius; }
 
@@ -86,6 +89,8 @@ class PcfSampled final : public ShadowTechnique {
     PcfSampled(FilterMode filter, int taps) : taps_(filter, taps, "--taps") {}
 
     std::vector<std::string_view> shader() const override { return {embedded::taps_glsl, embedded::pcf_sampled_glsl}; }
+
+    bool takes_warp() const override { return true; }
 
     double reach(const LightFrustum&, double filter_radius) const override { return filter_radius * taps_.reach(); }
 

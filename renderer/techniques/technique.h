@@ -69,6 +69,9 @@ class ShadowTechnique {
     /// Whether it reads the shadow map; without, no depth pass is drawn.
     virtual bool reads_map() const { return true; }
 
+    /// Whether it can look into a map whose texels differ in size (light_warp.h).
+    virtual bool takes_warp() const { return false; }
+
     /// Whether its filter's radius is its own in each pixel, and it writes `needed_texel`.
     virtual bool measures_need() const { return false; }
 

@@ -18,8 +18,8 @@ bool contains(const std::vector<Configuration>& list, const Configuration& one) 
 
 TEST(Configurations, CrossTechniquesSizesAndTaps) {
     const std::vector<Configuration> list = all_configurations();
-    // 6 sizes of hard, exact, levels, vsm, esm, and of four filters with 3 numbers of taps.
-    EXPECT_EQ(list.size(), 1u + 5 * 6 + 4 * 6 * 3);
+    // 6 sizes of hard, exact, levels, vsm, esm, of hard and exact under a warp, and of four filters with 3 numbers of taps.
+    EXPECT_EQ(list.size(), 1u + 7 * 6 + 4 * 6 * 3);
     std::set<std::string> labels;
     for (const Configuration& one : list) {
         EXPECT_TRUE(labels.insert(label(one)).second) << label(one);
@@ -36,6 +36,19 @@ TEST(Configurations, HoldWhatTheBarsAreAbout) {
     EXPECT_EQ(label(fixed_pcf()), "pcf-rotated 4096, 25 taps");
     EXPECT_EQ(label(fixed_pcss()), "pcss 4096, 25+25 taps");
     EXPECT_EQ(label(auto_pcss()), "pcss-levels auto");
+}
+
+TEST(Configurations, OfAWarpAreWhatTheyAreWithoutIt) {
+    for (const Configuration& one : all_configurations()) {
+        EXPECT_EQ(one.warp == Warp::lispsm, one.technique.ends_with("-lispsm")) << label(one);
+        if (one.warp == Warp::none) continue;
+        Configuration plain = one;
+        plain.warp = Warp::none;
+        EXPECT_NE(one, plain);
+        plain.technique = one.entry == "hard" ? "hard" : "pcf-exact";
+        EXPECT_TRUE(contains(all_configurations(), plain)) << label(one);
+        EXPECT_EQ(truth_of(one), truth_of(plain));
+    }
 }
 
 TEST(Configurations, AreMeasuredAgainstWhatTheySample) {
