@@ -216,5 +216,6 @@ int main(int argc, char** argv) {
     stairstep::add_size_command(app, size);
     stairstep::add_image_command(app, image);
     stairstep::add_bench_command(app);
+    stairstep::add_stress_command(app);
     return stairstep::run_program(app, argc, argv);
 }

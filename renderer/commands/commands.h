@@ -9,5 +9,6 @@ class App;
 namespace stairstep {
 
 void add_bench_command(CLI::App& app);
+void add_stress_command(CLI::App& app);
 
 }  // namespace stairstep
