@@ -50,10 +50,11 @@ GpuScene upload(const Scene& scene) {
     std::vector<uint32_t> indices;
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.indices.empty()) continue;
-        gpu.draws.push_back({indices.size(), static_cast<GLsizei>(mesh.indices.size()), scene.materials[mesh.material],
-                             mesh.casts, mesh.fades, mesh.mover});
-        const auto base = static_cast<uint32_t>(vertices.size());
         const FacetMesh facets = facet_mesh(mesh);
+        if (facets.indices.empty()) continue;
+        gpu.draws.push_back({indices.size(), static_cast<GLsizei>(facets.indices.size()),
+                             scene.materials[mesh.material], mesh.casts, mesh.fades, mesh.mover});
+        const auto base = static_cast<uint32_t>(vertices.size());
         for (const uint32_t index : facets.indices) indices.push_back(base + index);
         vertices.insert(vertices.end(), facets.vertices.begin(), facets.vertices.end());
     }

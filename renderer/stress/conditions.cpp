@@ -67,8 +67,13 @@ void add_places(List& list) {
 }
 
 void add_lights(List& list) {
-    for (const auto& [value, elevation] :
-         {std::pair("90°", 90.0), {"30°", 30.0}, {"10°", 10.0}, {"3°", 3.0}, {"1°", 1.0}, {"0.1°", 0.1}}) {
+    for (const auto& [value, elevation] : {std::pair("90°", 90.0),
+                                           {"89.9°", 89.9},
+                                           {"30°", 30.0},
+                                           {"10°", 10.0},
+                                           {"3°", 3.0},
+                                           {"1°", 1.0},
+                                           {"0.1°", 0.1}}) {
         Condition made = condition("light's elevation", value);
         made.stage.light = directional_light({-40, elevation}, 0.05);
         list.add(made, elevation == 90 || elevation == 10 || elevation == 0.1);

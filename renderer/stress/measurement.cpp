@@ -16,6 +16,8 @@ namespace {
 
 /// A filter may look beyond its radius by a texel, and shadows are moved by half a one as they are sampled.
 constexpr double kMarginTexels = 2.5;
+/// Prefiltered maps are averaged over pixels besides.
+constexpr double kMarginPixels = 2;
 /// Of the picture of a contact, px a side.
 constexpr int kContactPixels = 64;
 /// Courses draw small pictures, so that what changes between frames is most of the work.
@@ -54,6 +56,7 @@ class Drawing {
         return read_visibility(target);
     }
 
+    ShadowTechnique::Lookups lookups() const { return renderer_.technique().lookups(renderer_.map()); }
     const ShadowMapShape& shape() const { return renderer_.map().shape; }
     const FrameTarget& target() const { return target_; }
 
@@ -83,6 +86,13 @@ class Drawing {
 double texel_at_home(const Condition& condition, const ShadowMapShape& shape) {
     const double texel = std::max(shape.texel().x, shape.texel().y);
     return shape.frustum.kind == Light::Kind::spot ? texel : texel / condition.placement.scale;
+}
+
+/// What a pixel covers of the light plane in the middle of the stage, at home.
+double pixel_at_home(const Condition& condition, int height) {
+    const Stage& stage = condition.stage;
+    const double pixel = pixel_footprint(stage.camera, glm::length(stage.camera.eye), height);
+    return stage.light.kind == Light::Kind::spot ? pixel / depth_along(stage.light, glm::dvec3(0)) : pixel;
 }
 
 /// A contact seen from near by: the stage with another camera, and the strip along it.
@@ -115,7 +125,6 @@ std::optional<Contact> contact_of(const Condition& condition, const ShadowMapSha
     return contact;
 }
 
-/// Where the box stands in the shadow of another its contact tells nothing of its own.
 std::optional<double> detachment(Drawing& drawing, const Condition& condition, size_t& strange) {
     const ShadowMapShape shape = drawing.shape();
     const std::optional<Contact> contact = contact_of(condition, shape);
@@ -131,7 +140,6 @@ std::optional<double> detachment(Drawing& drawing, const Condition& condition, s
             if (!seen || seen->face != -1) continue;
             const double distance = glm::dot(seen->position - contact->middle, contact->outwards);
             if (!(distance > 0 && distance < contact->width)) continue;
-            // All around it, too, so that no penumbra is taken for the contact's.
             if (!is_hidden(contact->stage, seen->position, 0, 0)) return std::nullopt;
             const float value = values[static_cast<size_t>(row) * kContactPixels + column];
             light += is_visibility(value) ? value : 1;
@@ -144,12 +152,16 @@ std::optional<double> detachment(Drawing& drawing, const Condition& condition, s
 
 void compare(Measurement& one, const std::vector<float>& values, const std::vector<float>& truth) {
     double sum = 0;
+    size_t count = 0;
     for (size_t i = 0; i < values.size(); ++i) {
+        // Where light comes edge-on there is nothing to compare.
+        if (std::isnan(truth[i])) continue;
+        ++count;
         const double error = is_visibility(values[i]) ? std::abs(values[i] - truth[i]) : 1;
         sum += error * error;
         one.error_max = std::max(one.error_max, error);
     }
-    one.error_rmse = std::sqrt(sum / static_cast<double>(values.size()));
+    one.error_rmse = count ? std::sqrt(sum / static_cast<double>(count)) : 0;
     one.nan_pixels += strange_pixels(values);
 }
 
@@ -172,7 +184,8 @@ void measure_picture(Measurement& one, const Condition& condition, const Techniq
     one.map_width = drawing.shape().width;
     one.map_height = drawing.shape().height;
     compare(one, values, visibility);
-    const double margin = kMarginTexels * texel_at_home(condition, drawing.shape());
+    double margin = kMarginTexels * texel_at_home(condition, drawing.shape());
+    if (drawing.lookups().prefiltered) margin += kMarginPixels * pixel_at_home(condition, settings.height);
     one.acne_share = acne(values, clear_pixels(condition.stage, truth_for(one.technique), light_plane_radius(condition),
                                                margin, visibility, settings.width, settings.height));
     one.detachment_texels = detachment(drawing, condition, one.nan_pixels);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "stimuli/parallel.h"
@@ -10,8 +11,12 @@ namespace stairstep::stress {
 namespace {
 
 constexpr int kMidpoints = 20;
-/// Points a side, both ends among them, at which a margin is looked for shadow.
-constexpr int kMarginPoints = 7;
+/// Points over which margins are looked for shadow lie no further apart than this, light plane: less than what the stage's
+/// thinnest part covers of it.
+constexpr double kMarginStep = 0.03;
+constexpr int kMostMarginPoints = 61;
+/// Cosine below which light meets a facet edge-on.
+constexpr double kEdgeOn = 1e-6;
 
 /// The point of the receiver's plane that lies (x, y) from it in the light plane; nullopt where the plane has none, seen from a
 /// spot.
@@ -48,7 +53,14 @@ double mean_over_square(Lit lit) {
     return static_cast<double>(count) / (kMidpoints * kMidpoints);
 }
 
+bool is_edge_on(const Light& light, const SeenPoint& point) {
+    const glm::dvec3 to_light =
+        light.kind == Light::Kind::directional ? light.basis.back : glm::normalize(light.position - point.position);
+    return std::abs(glm::dot(point.normal, to_light)) < kEdgeOn;
+}
+
 double visibility_of(const Stage& stage, TruthOf kind, double radius, const SeenPoint& point) {
+    if (is_edge_on(stage.light, point)) return std::numeric_limits<double>::quiet_NaN();
     if (!faces_light(stage.light, point)) return 0;
     if (kind == TruthOf::filter && radius > 0) {
         return mean_over_square([&](double x, double y) { return is_lit(stage, point, radius * x, radius * y, 0, 0); });
@@ -59,21 +71,26 @@ double visibility_of(const Stage& stage, TruthOf kind, double radius, const Seen
     return is_hidden(stage, point.position, 0, 0) ? 0 : 1;
 }
 
+/// Evenly from −reach to reach.
+std::vector<double> points_over(double reach) {
+    const int count = std::clamp(static_cast<int>(std::min(2 * reach / kMarginStep, 1e6)) + 2, 3, kMostMarginPoints);
+    std::vector<double> points;
+    for (int i = 0; i < count; ++i) points.push_back(reach * (2.0 * i / (count - 1) - 1));
+    return points;
+}
+
 /// Whether all within the margin of what a filter looks at is lit.
 bool is_clear_at(const Stage& stage, TruthOf kind, double radius, double margin, const SeenPoint& point) {
-    const double reach = margin + (kind == TruthOf::filter ? radius : 0);
-    const auto step = [](int i) { return 2.0 * i / (kMarginPoints - 1) - 1; };
-    for (int j = 0; j < kMarginPoints; ++j) {
-        for (int i = 0; i < kMarginPoints; ++i) {
-            const double x = step(i);
-            const double y = step(j);
-            if (kind != TruthOf::area) {
-                if (!is_lit(stage, point, reach * x, reach * y, 0, 0)) return false;
-                continue;
-            }
-            for (const double dx : {-margin, 0.0, margin}) {
-                for (const double dy : {-margin, 0.0, margin}) {
-                    if (!is_lit(stage, point, dx, dy, x, y)) return false;
+    const std::vector<double> places = points_over(margin + (kind == TruthOf::filter ? radius : 0));
+    const std::vector<double> lights =
+        kind == TruthOf::area ? std::vector<double>{-1, -0.5, 0, 0.5, 1} : std::vector<double>{0};
+    for (const double x : places) {
+        for (const double y : places) {
+            const std::optional<glm::dvec3> moved = moved_across(stage.light, point, x, y);
+            if (!moved) continue;
+            for (const double u : lights) {
+                for (const double v : lights) {
+                    if (is_hidden(stage, *moved, u, v)) return false;
                 }
             }
         }

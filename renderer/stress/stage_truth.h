@@ -6,7 +6,8 @@
 //            is under the box around the receiver
 //
 // Each share is the mean over n × n midpoints, n = 20: across one straight edge it is off by 1/(2n) at most. As in the shading,
-// 1 where nothing is seen and 0 on facets turned away and outside a spot's cone.
+// 1 where nothing is seen and 0 on facets turned away and outside a spot's cone. On facets that the light meets at a cosine below
+// 1e-6 there is none to see or to miss: NaN.
 #pragma once
 
 #include <vector>
@@ -21,8 +22,8 @@ enum class TruthOf { point, area, filter };
 std::vector<float> true_visibility(const Stage& stage, TruthOf kind, double radius, int width, int height);
 
 /// Pixels that see certain light, given their true visibility: lit, the same face as all eight around them, and no shadow
-/// within `margin` (light plane, at home) of all that a filter may look at. Any darkness there is acne. Shadows are looked for
-/// at 7 × 7 points: one narrower than a third of what is looked over may be missed.
+/// within `margin` (light plane, at home) of all that a filter may look at. Any darkness there is acne. Shadows are looked for at
+/// points no further apart than the stage's shadows are wide.
 std::vector<bool> clear_pixels(const Stage& stage, TruthOf kind, double radius, double margin,
                                const std::vector<float>& visibility, int width, int height);
 
