@@ -19,6 +19,7 @@ struct Options {
     std::string context = "osmesa";
     bool quick = false;
     bool long_run = false;
+    bool no_courses = false;
     bool json = false;
 };
 
@@ -27,6 +28,7 @@ stress::StressJob job_of(const Options& options) {
     job.techniques = split(options.techniques, ',');
     job.quick = options.quick;
     job.long_run = options.long_run;
+    job.courses = !options.no_courses;
     const std::string size = !options.size.empty() ? options.size : options.quick ? "160x90" : "320x180";
     std::tie(job.measurement.width, job.measurement.height) = picture_size_of("--size", size);
     job.context = gl::context_kind_named(options.context);
@@ -44,6 +46,7 @@ void add_stress_command(CLI::App& app) {
     command->add_option("--techniques", options->techniques, "at the law's sizes")->capture_default_str();
     command->add_flag("--quick", options->quick, "fewer conditions, short courses, smaller pictures");
     command->add_flag("--long", options->long_run, "animate for 100,000 frames, not 2,000");
+    command->add_flag("--no-courses", options->no_courses, "leave out the changes of size and the animation");
     command->add_option("--size", options->size, "of the picture, px; default: 320x180, quick: 160x90");
     command->add_option("--context", options->context, "osmesa (no display), egl (no display, GPU) or window")
         ->capture_default_str();

@@ -15,6 +15,8 @@ constexpr int kMidpoints = 20;
 /// thinnest part covers of it.
 constexpr double kMarginStep = 0.03;
 constexpr int kMostMarginPoints = 61;
+/// Where the light has a size, which is looked over besides.
+constexpr int kMostMarginPointsOfArea = 15;
 /// Cosine below which light meets a facet edge-on.
 constexpr double kEdgeOn = 1e-6;
 
@@ -72,8 +74,8 @@ double visibility_of(const Stage& stage, TruthOf kind, double radius, const Seen
 }
 
 /// Evenly from −reach to reach.
-std::vector<double> points_over(double reach) {
-    const int count = std::clamp(static_cast<int>(std::min(2 * reach / kMarginStep, 1e6)) + 2, 3, kMostMarginPoints);
+std::vector<double> points_over(double reach, int most) {
+    const int count = std::clamp(static_cast<int>(std::min(2 * reach / kMarginStep, 1e6)) + 2, 3, most);
     std::vector<double> points;
     for (int i = 0; i < count; ++i) points.push_back(reach * (2.0 * i / (count - 1) - 1));
     return points;
@@ -81,7 +83,9 @@ std::vector<double> points_over(double reach) {
 
 /// Whether all within the margin of what a filter looks at is lit.
 bool is_clear_at(const Stage& stage, TruthOf kind, double radius, double margin, const SeenPoint& point) {
-    const std::vector<double> places = points_over(margin + (kind == TruthOf::filter ? radius : 0));
+    const std::vector<double> places =
+        kind == TruthOf::area ? points_over(margin, kMostMarginPointsOfArea)
+                              : points_over(margin + (kind == TruthOf::filter ? radius : 0), kMostMarginPoints);
     const std::vector<double> lights =
         kind == TruthOf::area ? std::vector<double>{-1, -0.5, 0, 0.5, 1} : std::vector<double>{0};
     for (const double x : places) {

@@ -76,7 +76,8 @@ ordered_json run_stress(const StressJob& job) {
     const auto context = gl::make_context(job.context);
     const Setting setting{gl::renderer_name(), std::string(gl::name(job.context)), job.measurement.width,
                           job.measurement.height};
-    const std::vector<Condition> conditions = all_conditions(job.quick, job.long_run);
+    std::vector<Condition> conditions = all_conditions(job.quick, job.long_run);
+    if (!job.courses) std::erase_if(conditions, [](const Condition& c) { return c.course != Course::picture; });
     long steps = 0;
     for (const Condition& condition : conditions) steps += condition.steps * static_cast<long>(entries.size());
     std::vector<ConditionResult> results;

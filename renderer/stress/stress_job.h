@@ -16,6 +16,8 @@ struct StressJob {
     std::vector<std::string> techniques{"hard", "pcf", "pcss", "vsm", "esm"};
     bool quick = false;
     bool long_run = false;
+    /// Whether to draw sizes after sizes and frames after frames, too.
+    bool courses = true;
     MeasurementSettings measurement;
     gl::ContextKind context = gl::ContextKind::osmesa;
     /// A folder, made where it isn't there.

@@ -28,7 +28,7 @@ class Stress : public testing::Test {
         return {};
     }
 
-    const MeasurementSettings settings_{80, 45, 1024};
+    const MeasurementSettings settings_{64, 36, 512};
 
   private:
     std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
@@ -36,8 +36,16 @@ class Stress : public testing::Test {
 
 constexpr std::array kTechniques{"hard", "pcf", "pcss", "vsm", "esm"};
 
-TEST_F(Stress, LeavesNoNanAndNoErrorOfGl) {
+// Exact comparisons with the receiver's own plane leave no acne wherever light comes at more than 3° (steeper planes are
+// flattened, receiver.glsl). Where a scene stands and how large it is changes its map's phase and nothing else, and triangles
+// that have no place nothing at all.
+TEST_F(Stress, HoldsUnderAllQuickConditions) {
+    std::map<std::string, Measurement> plain;
+    for (const char* technique : kTechniques) plain[technique] = under(named("nothing", "as it is"), technique);
+    ASSERT_TRUE(plain["pcf"].acne_share && plain["pcf"].detachment_texels);
+    EXPECT_LT(*plain["pcf"].detachment_texels, 0.1);
     for (const Condition& condition : all_conditions(true, false)) {
+        if (condition.course != Course::picture || condition.what == "nothing") continue;
         for (const char* technique : kTechniques) {
             SCOPED_TRACE(condition.what + " " + condition.value + " " + technique);
             const Measurement one = under(condition, technique);
@@ -46,48 +54,15 @@ TEST_F(Stress, LeavesNoNanAndNoErrorOfGl) {
             EXPECT_EQ(one.failure, "");
             // A filter of no width has no size by the law.
             EXPECT_EQ(one.refusal.empty(), condition.radius > 0 || condition.fixed_size) << one.refusal;
+            const bool exact = std::string(technique) == "hard" || std::string(technique) == "pcf";
+            EXPECT_TRUE(!exact || condition.value == "0.1°" || one.acne_share.value_or(0) == 0);
+            if (condition.what == "world offset" || condition.what == "scale") {
+                EXPECT_LT(one.error_rmse, 2 * plain[technique].error_rmse + 0.002);
+            }
+            if (condition.value == "NaN corners" || condition.value == "infinite corners") {
+                EXPECT_EQ(one.error_rmse, plain[technique].error_rmse);
+            }
         }
-    }
-}
-
-// Exact comparisons with the receiver's own plane leave no acne wherever light comes at more than 3° (steeper planes are
-// flattened, receiver.glsl).
-TEST_F(Stress, LeavesNoAcneWhereComparisonsAreExact) {
-    for (const Condition& condition : all_conditions(true, false)) {
-        if (condition.course != Course::picture || condition.value == "0.1°" || condition.stage.boxes.empty()) continue;
-        for (const char* technique : {"hard", "pcf"}) {
-            SCOPED_TRACE(condition.what + " " + condition.value + " " + technique);
-            EXPECT_EQ(under(condition, technique).acne_share.value_or(0), 0);
-        }
-    }
-    const Measurement plain = under(named("nothing", "as it is"), "pcf");
-    ASSERT_TRUE(plain.acne_share && plain.detachment_texels);
-    EXPECT_LT(*plain.detachment_texels, 0.1);
-}
-
-// Where a scene stands and how large it is changes its map's phase and nothing else.
-TEST_F(Stress, HoldsAtAnyPlaceAndScale) {
-    for (const char* technique : {"pcf", "pcss"}) {
-        const double plain = under(named("nothing", "as it is"), technique).error_rmse;
-        for (const auto& [what, value] : {std::pair("world offset", "1e6"),
-                                          {"scale", "1e-3"},
-                                          {"scale", "1e4"},
-                                          {"triangles", "NaN corners"},
-                                          {"triangles", "infinite corners"},
-                                          {"triangles", "without area"},
-                                          {"triangles", "all of them twice"}}) {
-            SCOPED_TRACE(std::string(what) + " " + value + " " + technique);
-            EXPECT_LT(under(named(what, value), technique).error_rmse, 2 * plain + 0.002);
-        }
-    }
-}
-
-// Triangles that have no place change nothing at all.
-TEST_F(Stress, DrawsNothingOfWhatIsNotFinite) {
-    for (const char* technique : kTechniques) {
-        const double plain = under(named("nothing", "as it is"), technique).error_rmse;
-        EXPECT_EQ(under(named("triangles", "NaN corners"), technique).error_rmse, plain);
-        EXPECT_EQ(under(named("triangles", "infinite corners"), technique).error_rmse, plain);
     }
 }
 
@@ -124,7 +99,9 @@ TEST_F(Stress, CoursesEndAsTheyBegan) {
             const Measurement one = under(condition, technique);
             ASSERT_TRUE(one.drift);
             EXPECT_EQ(*one.drift, 0);
-            if (one.growth_kib) EXPECT_LT(*one.growth_kib, 8192);
+            EXPECT_LT(one.growth_kib.value_or(0), 8192);
+            EXPECT_EQ(one.nan_pixels, 0u);
+            EXPECT_EQ(one.gl_errors, 0u);
         }
     }
 }
@@ -135,7 +112,8 @@ TEST(Conditions, AreNamedOnceAndAllQuickOnesAreAmongThem) {
         EXPECT_EQ(++all[std::pair(condition.what, condition.value)], 1) << condition.what << " " << condition.value;
     }
     for (const Condition& condition : all_conditions(true, false)) {
-        if (condition.course == Course::picture) EXPECT_EQ(all.count({condition.what, condition.value}), 1u);
+        if (condition.course != Course::picture) continue;
+        EXPECT_EQ(all.count({condition.what, condition.value}), 1u) << condition.what << " " << condition.value;
     }
     EXPECT_EQ(swung(plain_stage(), 0).light.basis.back, swung(plain_stage(), kPeriod).light.basis.back);
     EXPECT_NE(swung(plain_stage(), 0).light.basis.back, swung(plain_stage(), kPeriod / 4).light.basis.back);
