@@ -14,13 +14,7 @@ struct Triangle {
 Bounds bounds_of(std::span<const Triangle> triangles, const std::vector<FacetVertex>& vertices) {
     Bounds bounds;
     for (const Triangle& triangle : triangles) {
-        for (const uint32_t index : triangle.indices) {
-            const glm::dvec3 position = vertices[index].vertex.position;
-            if (!std::isfinite(position.x + position.y + position.z)) {
-                return {glm::dvec3(-INFINITY), glm::dvec3(INFINITY)};
-            }
-            bounds.add(position);
-        }
+        for (const uint32_t index : triangle.indices) bounds.add(vertices[index].vertex.position);
     }
     return bounds;
 }
@@ -44,7 +38,6 @@ void split(std::span<Triangle> triangles, const FacetMesh& mesh, size_t first, s
 /// Whether a plane has all of the box on its outer side.
 bool is_outside(const Bounds& bounds, const glm::dvec4& plane) {
     const glm::dvec3 normal(plane);
-    if (!std::isfinite(bounds.low.x)) return false;
     const glm::dvec3 farthest(normal.x > 0 ? bounds.high.x : bounds.low.x, normal.y > 0 ? bounds.high.y : bounds.low.y,
                               normal.z > 0 ? bounds.high.z : bounds.low.z);
     return glm::dot(normal, farthest) + plane.w < 0;
@@ -59,10 +52,6 @@ std::vector<Cluster> make_clusters(FacetMesh& mesh) {
         const std::array corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
         glm::vec3 middle(0);
         for (const uint32_t corner : corners) middle += mesh.vertices[corner].vertex.position / 3.0f;
-        // An order needs numbers.
-        for (const int axis : {0, 1, 2}) {
-            if (!std::isfinite(middle[axis])) middle[axis] = 0;
-        }
         triangles.push_back({corners, middle});
     }
     std::vector<Cluster> clusters;

@@ -22,7 +22,7 @@ struct Cluster {
 };
 
 /// Puts the mesh's indices in the order of clusters, each triangle's own staying as they are. Together the clusters are all
-/// indices, in their order. A triangle with a corner that isn't finite has bounds without end, so that it is never culled.
+/// indices, in their order.
 std::vector<Cluster> make_clusters(FacetMesh& mesh);
 
 /// A run of indices.

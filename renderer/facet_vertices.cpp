@@ -22,6 +22,7 @@ FacetMesh facet_mesh(const Mesh& mesh) {
     for (const Vertex& vertex : mesh.vertices) result.vertices.push_back({vertex});
     std::vector<bool> taken(mesh.vertices.size(), false);
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        if (!is_finite_triangle(mesh, i)) continue;
         const std::array triangle{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
         const glm::vec3 facet = facet_normal(triangle, mesh.vertices);
         const auto fits = [&](uint32_t vertex) { return !taken[vertex] || result.vertices[vertex].facet == facet; };

@@ -21,7 +21,7 @@ struct FacetVertex {
 
 struct FacetMesh {
     std::vector<FacetVertex> vertices;
-    /// Three a triangle; triangles in the mesh's order, each with its own winding.
+    /// Three a triangle; triangles in the mesh's order, each with its own winding, but those that aren't finite (scene.h).
     std::vector<uint32_t> indices;
 };
 

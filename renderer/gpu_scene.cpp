@@ -46,8 +46,9 @@ GpuScene upload(const Scene& scene) {
     std::vector<uint32_t> indices;
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.indices.empty()) continue;
-        const auto base = static_cast<uint32_t>(vertices.size());
         FacetMesh facets = facet_mesh(mesh);
+        if (facets.indices.empty()) continue;
+        const auto base = static_cast<uint32_t>(vertices.size());
         std::vector<Cluster> clusters = make_clusters(facets);
         gpu.draws.push_back(
             {indices.size(), std::move(clusters), scene.materials[mesh.material], mesh.casts, mesh.fades, mesh.mover});

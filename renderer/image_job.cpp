@@ -131,6 +131,7 @@ Truth draw_truth(const ImageJob& job, const ShadowSettings& settings, const Subj
     converged.technique.filter_taps = kTruthTaps;
     converged.fixed_size = kTruthSize;
     converged.warp = Warp::none;
+    converged.cascades = {};
     ShadowRenderer reference(technique_named("pcf"), converged, subject.scene, subject.state,
                              static_cast<double>(job.width) / job.height);
     Progress progress("drawing the truth", 1);
@@ -231,6 +232,8 @@ ordered_json run_image_job(const ImageJob& job) {
     settings.largest_size = job.largest_size;
     settings.fit = job.fit;
     settings.warp = job.warp;
+    settings.cascades = job.cascades;
+    settings.skips = job.skips;
     std::vector<Rendering> renderings;
     for (const auto& resolution : job.resolutions) {
         settings.fixed_size = resolution;

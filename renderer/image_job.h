@@ -12,6 +12,7 @@
 #include "renderer/gl/context.h"
 #include "renderer/light_frustum.h"
 #include "renderer/techniques/technique.h"
+#include "renderer/shadow_settings.h"
 #include "renderer/view.h"
 
 namespace stairstep {
@@ -36,6 +37,9 @@ struct ImageJob {
     Fit fit = Fit::axis_aligned;
     /// Of a directional light's map; then the axes are the warp's.
     Warp warp = Warp::none;
+    Cascades cascades;
+    /// What frames leave out. What didn't change since the last frame isn't among it: all are timed as if something had moved.
+    Skips skips = skips_without(kDrawsUnchanged);
     gl::ContextKind context = gl::ContextKind::osmesa;
     int largest_size = 8192;
     int width = 1280;

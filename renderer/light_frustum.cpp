@@ -221,7 +221,7 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
 
     // Casters, in light space: across the light and along it.
     Bounds casters;
-    std::vector<glm::vec3> caster_points;
+    std::vector<glm::dvec3> caster_points;
     for (size_t i = 0; i < extents.parts.size(); ++i) {
         const glm::dmat4 world_from_part = SceneExtents::placement(state, i);
         const auto& [right, up, back] = frustum.basis;
@@ -246,7 +246,7 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
     // Both sets in the light plane. A caster at or behind a spot's nearest depth may be anywhere across.
     Points caster_plane;
     bool anywhere = false;
-    for (const glm::dvec3 point : caster_points) {
+    for (const glm::dvec3& point : caster_points) {
         if (spot && point.z <= frustum.nearest) {
             anywhere = true;
         } else {

@@ -17,6 +17,18 @@ double light_plane_radius(double radius, const Light& light, const glm::dvec3& m
     return radius / std::max(depth_along(light, middle), 1e-9);
 }
 
+/// Of all casters, where they are.
+glm::dvec3 middle_of_casters(const SceneExtents& extents, const SceneState& state) {
+    Bounds bounds;
+    for (size_t i = 0; i < extents.parts.size(); ++i) {
+        const glm::dmat4 placement = SceneExtents::placement(state, i);
+        for (const glm::vec3& corner : extents.parts[i].casters) {
+            bounds.add(glm::dvec3(placement * glm::dvec4(corner, 1)));
+        }
+    }
+    return bounds.empty() ? glm::dvec3(0) : bounds.centre();
+}
+
 TechniqueSettings technique_settings(const ShadowSettings& settings) {
     TechniqueSettings technique = settings.technique;
     technique.skip_even_texels = settings.skips.even_texels;
@@ -28,9 +40,10 @@ TechniqueSettings technique_settings(const ShadowSettings& settings) {
 LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                          const SceneState& first, double aspect)
     : settings_(settings),
+      middle_(middle_of_casters(scene.extents, first)),
       map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)))) {
     // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
-    map_.filter_radius = light_plane_radius(settings.radius, first.light, scene.middle);
+    map_.filter_radius = light_plane_radius(settings.radius, first.light, middle_);
     const LightFrustum frustum = fit_light_frustum(
         scene.extents, first, aspect, settings.fit, [&](auto&) { return map_.filter_radius; }, settings.warp);
     map_.shape =
@@ -46,7 +59,7 @@ LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& sett
 }
 
 ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px) {
-    const double filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
+    const double filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
     const LightFrustum frustum = fit_light_frustum(
         scene.extents, state, aspect, settings_.fit,
         [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); }, settings_.warp);
@@ -75,7 +88,7 @@ void LightShadow::update_map(const ShadowMapShape& shape, const GpuScene& scene,
     const int side = std::max(shape.width, shape.height);
     if (side > map_.capacity) map_ = reserve_shadow_map(capacity_for(side, std::max(side, settings_.largest_size)));
     map_.shape = shape;
-    map_.filter_radius = light_plane_radius(settings_.radius, state.light, scene.middle);
+    map_.filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
     const Skips& skips = settings_.skips;
     if (!technique_->reads_map() || (skips.unseen_shadows && shape.frustum.shadowless)) return;
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

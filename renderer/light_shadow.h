@@ -55,6 +55,8 @@ class LightShadow {
     void keep(const Seen& seen, const FrameTarget& target, LightPart& part);
 
     ShadowSettings settings_;
+    /// Where a spot's constant filter has its radius: the casters' middle in the first state, so that it doesn't change as they move.
+    glm::dvec3 middle_;
     std::unique_ptr<ShadowTechnique> technique_;
     ShadowMap map_;
     ShadowMapKeeper keeper_;

@@ -36,6 +36,8 @@ struct ImageOptions {
     std::string context = "osmesa";
     std::string fit = "axes";
     std::string warp = "none";
+    std::string splits = "practical";
+    std::string no_skip = kDrawsUnchanged;
     std::string camera;
     std::string light;
     std::string show = "colour";
@@ -106,6 +108,8 @@ ImageJob job_of(const ImageOptions& options) {
     job.filter = filter_mode_named(options.filter);
     job.context = gl::context_kind_named(options.context);
     job.fit = options.fit == "smallest" ? Fit::smallest_rectangle : Fit::axis_aligned;
+    job.cascades.splits = splits_named(options.splits);
+    job.skips = skips_without(options.no_skip);
     job.warp = options.warp == "lispsm" ? Warp::lispsm : Warp::none;
     if (job.light_half_tangent && !(*job.light_half_tangent >= 0 && *job.light_half_tangent <= 1)) {
         throw InputError("--light-size " + format_number(*job.light_half_tangent), "must be from 0 to 1",
@@ -180,6 +184,20 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
         ->check(CLI::IsMember({"axes", "smallest"}))
         ->capture_default_str();
     command
+        ->add_option("--cascades", job.cascades.count,
+                     "cuts the view across into so many slices, each with a map of its own")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    command->add_option("--splits", options.splits, "where: uniform, logarithmic or practical (their mean)")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--no-skip", options.no_skip,
+            "draws what frames else leave out, the picture being the same: names separated by commas, of "
+            "hidden-surfaces, unseen-triangles, unseen-shadows, unchanged-maps, unchanged-pixels, even-texels; all; "
+            "empty for none")
+        ->capture_default_str();
+    command
         ->add_option("--warp", options.warp,
                      "lispsm makes texels smaller near the camera (hard and pcf under a directional light)")
         ->check(CLI::IsMember({"none", "lispsm"}))
@@ -224,5 +242,6 @@ int main(int argc, char** argv) {
     stairstep::add_image_command(app, image);
     stairstep::add_bench_command(app);
     stairstep::add_scaling_command(app);
+    stairstep::add_stress_command(app);
     return stairstep::run_program(app, argc, argv);
 }

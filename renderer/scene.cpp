@@ -1,13 +1,26 @@
 #include "renderer/scene.h"
 
+#include <cmath>
+
 namespace stairstep {
+
+bool is_finite_triangle(const Mesh& mesh, size_t first_index) {
+    for (size_t i = first_index; i < first_index + 3; ++i) {
+        const glm::vec3& corner = mesh.vertices[mesh.indices[i]].position;
+        if (!(std::isfinite(corner.x) && std::isfinite(corner.y) && std::isfinite(corner.z))) return false;
+    }
+    return true;
+}
 
 Bounds caster_bounds(const Scene& scene) {
     Bounds bounds;
     for (const Mesh& mesh : scene.meshes) {
         if (!mesh.casts) continue;
         // By index, as a vertex that no triangle uses is not seen.
-        for (const uint32_t index : mesh.indices) bounds.add(mesh.vertices[index].position);
+        for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            if (!is_finite_triangle(mesh, i)) continue;
+            for (size_t corner = i; corner < i + 3; ++corner) bounds.add(mesh.vertices[mesh.indices[corner]].position);
+        }
     }
     return bounds;
 }

@@ -66,6 +66,10 @@ struct Bounds {
     glm::dvec3 corner(int i) const { return {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; }
 };
 
+/// Whether the corners of the triangle that begins at this index are finite. One with a corner that isn't has no place: it is
+/// not drawn and casts nothing.
+bool is_finite_triangle(const Mesh& mesh, size_t first_index);
+
 /// Bounds of all that casts shadows.
 Bounds caster_bounds(const Scene& scene);
 

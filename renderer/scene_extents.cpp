@@ -71,11 +71,15 @@ SceneExtents extents_of(const Scene& scene) {
         const size_t part = mesh.mover ? *mesh.mover + 1 : 0;
         if (part >= extents.parts.size()) extents.parts.resize(part + 1);
         Bounds bounds;
-        for (const uint32_t index : mesh.indices) {
-            bounds.add(mesh.vertices[index].position);
-            if (mesh.casts) extents.parts[part].casters.push_back(mesh.vertices[index].position);
+        for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            if (!is_finite_triangle(mesh, i)) continue;
+            for (size_t corner = i; corner < i + 3; ++corner) {
+                const glm::vec3& position = mesh.vertices[mesh.indices[corner]].position;
+                bounds.add(position);
+                if (mesh.casts) extents.parts[part].casters.push_back(position);
+            }
         }
-        extents.parts[part].meshes.push_back(bounds);
+        if (!bounds.empty()) extents.parts[part].meshes.push_back(bounds);
     }
     for (SceneExtents::Part& part : extents.parts) {
         const auto key = [](const glm::vec3& p) { return std::tuple(p.x, p.y, p.z); };

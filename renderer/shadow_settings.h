@@ -46,6 +46,9 @@ inline constexpr SkipName kSkips[]{
 /// the names there are.
 Skips skips_without(const std::string& names);
 
+/// Draws frames as if something had moved since the last: so pictures that stand still are timed.
+inline constexpr const char* kDrawsUnchanged = "unchanged-maps,unchanged-pixels";
+
 struct ShadowSettings {
     TechniqueSettings technique;
     /// Half-width of a constant filter, world units across the light (at the scene's middle, for a spot), > 0.

@@ -37,11 +37,18 @@ glm::mat4 eye_from_model(const GpuScene::Draw& draw, const SceneState& state) {
     return glm::mat4(translation(-state.camera.eye) * world_from_model(draw, state));
 }
 
+/// With depths from 1 (near) to 0 (far), where floats are dense: depth falls with distance as fast as they grow denser, so that a
+/// near plane close to the eye costs no precision.
 glm::mat4 clip_from_eye(const Camera& camera, double aspect) {
     Camera centred = camera;
     centred.eye = glm::dvec3(0);
-    return glm::mat4(clip_from_world(centred, aspect));
+    glm::dmat4 reversed(1);
+    reversed[2].z = -1;
+    reversed[3].z = 1;
+    return glm::mat4(reversed * clip_from_world(centred, aspect));
 }
+
+constexpr float kFarthestDepth = 0;
 
 /// How far a caster's plane or a receiver's place may be from where it is.
 struct Misplacement {
@@ -132,16 +139,17 @@ std::string preamble(bool spot, bool warped, bool sliced) {
 void clear(const gl::Framebuffer& framebuffer, const FrameTarget& target, bool need) {
     const glm::vec4 background = target.show == Show::colour ? glm::vec4(kBackground, 1) : glm::vec4(1);
     const glm::vec4 no_need(1e30f);
-    const float farthest = 1;
     gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 0, &background.x);
     if (need) gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 1, &no_need.x);
-    gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &farthest);
+    gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &kFarthestDepth);
 }
 
 void draw_surfaces(const gl::Program& program, const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
                    const FrameTarget& target) {
     gl::Viewport(0, 0, target.width, target.height);
     gl::Enable(GL_DEPTH_TEST);
+    // Lights after the first meet the same depths again.
+    gl::DepthFunc(GL_GEQUAL);
     gl::set_uniform(program, "clip_from_eye", clip_from_eye(state.camera, aspect_of(target)));
     gl::UseProgram(program.id());
     gl::BindVertexArray(scene.vertex_array.id());
@@ -154,6 +162,7 @@ void draw_surfaces(const gl::Program& program, const GpuScene& scene, const Scen
         if (draw.material.texture) gl::BindTextureUnit(1, scene.textures[*draw.material.texture].id());
         draw_runs(scene, item);
     }
+    gl::DepthFunc(GL_LESS);
 }
 
 /// Adds to what is there, for all lights but the first.
@@ -173,10 +182,9 @@ SurfacePass::SurfacePass()
 void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
                        const FrameTarget& target) const {
     const glm::vec4 nothing(0);
-    const float farthest = 1;
     // Where there is no plane, the material is never shown.
     gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_COLOR, 0, &nothing.x);
-    gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_DEPTH, 0, &farthest);
+    gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_DEPTH, 0, &kFarthestDepth);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.surface_framebuffer.id());
     draw_surfaces(program_, scene, state, surfaces, target);
 }
@@ -252,12 +260,10 @@ void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, cons
     if (part.index == 0 && (!part.slice || part.slice->x < 0)) clear(framebuffer, target, part.need);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
     gl::Enable(GL_FRAMEBUFFER_SRGB);
-    gl::DepthFunc(GL_LEQUAL);
     set_blending(part);
     gl::BindTextureUnit(0, map.memory.depth.id());
     draw_surfaces(program, scene, state, surfaces, target);
     gl::Disable(GL_BLEND);
-    gl::DepthFunc(GL_LESS);
     if (target.samples > 1) {
         gl::BlitNamedFramebuffer(framebuffer.id(), target.framebuffer.id(), 0, 0, target.width, target.height, 0, 0,
                                  target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -84,6 +84,8 @@ const std::vector<Column>& columns() {
         {"renderer", [](const Row& r) { return r.setting.renderer; }},
         {"context", [](const Row& r) { return r.setting.context; }},
         {"light_bleeding", [](const Row& r) { return number(r.one.error.light_bleeding); }},
+        {"surfaces_ms", [](const Row& r) { return number(r.one.surfaces.cpu_ms); }},
+        {"no_skip", [](const Row& r) { return r.one.configuration.no_skip; }},
     };
     return list;
 }

@@ -4,7 +4,7 @@
 // that the law chose, 0 without a map. `search_taps` and `filter_taps` are lookups a pixel, at most; `lookups` says what each is:
 // a tap, or a gather of four texels. Times are medians, ms; `gpu_…` are the driver's. `error_…`, `penumbra_rmse` and shares are of
 // visibility at pixel centres against `truth`, which `truth_quality` describes; `rmse_levels` of both as pictures, in levels of
-// 255. `wobble`, the mean of those of three motions, is empty where it wasn't measured. `time_ratio` is against the baseline (configuration.h) of the same scene. `light_bleeding` is VisibilityError's.
+// 255. `wobble`, the mean of those of three motions, is empty where it wasn't measured. `time_ratio` is against the baseline (configuration.h) of the same scene. `light_bleeding` is VisibilityError's. `no_skip` is what was drawn that frames else leave out (shadow_settings.h).
 #pragma once
 
 #include <string>

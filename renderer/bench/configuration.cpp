@@ -40,7 +40,9 @@ std::string label(const Configuration& configuration) {
         const std::string taps = std::to_string(configuration.taps);
         text += ", " + (is_pcss(configuration) ? taps + "+" + taps : taps) + " taps";
     }
-    return text;
+    if (configuration.no_skip.empty()) return text + ", nothing moved";
+    if (configuration.no_skip == kDrawsUnchanged) return text;
+    return text + ", with " + configuration.no_skip.substr(0, configuration.no_skip.find(','));
 }
 
 TruthKind truth_of(const Configuration& configuration) {
@@ -66,6 +68,22 @@ Configuration fixed_pcss() {
     return {"pcss", "pcss", FilterMode::rotated, kBaselineSide, kBaselineTaps};
 }
 
+std::vector<Configuration> ablations() {
+    std::vector<Configuration> list;
+    for (const Configuration& whole : {auto_pcf(), auto_pcss()}) {
+        for (const std::string drawn :
+             {"hidden-surfaces", "unseen-triangles", "unseen-shadows", "even-texels", "all"}) {
+            Configuration one = whole;
+            one.no_skip = drawn == "all" ? drawn : drawn + "," + kDrawsUnchanged;
+            list.push_back(one);
+        }
+        Configuration still = whole;
+        still.no_skip = "";
+        list.push_back(still);
+    }
+    return list;
+}
+
 Configuration baseline_of(const Configuration& configuration) {
     return is_pcss(configuration) ? fixed_pcss() : fixed_pcf();
 }
@@ -86,6 +104,7 @@ std::vector<Configuration> all_configurations() {
     for (const char* technique : {"vsm", "esm"}) add(technique, technique, FilterMode::automatic, 0);
     add("hard-lispsm", "hard", FilterMode::automatic, 0, Warp::lispsm);
     add("pcf-lispsm", "pcf", FilterMode::exact, 0, Warp::lispsm);
+    for (const Configuration& one : ablations()) list.push_back(one);
     return list;
 }
 
@@ -93,14 +112,18 @@ std::vector<Configuration> quick_configurations() {
     Configuration small_pcf = fixed_pcf();
     Configuration small_pcss = fixed_pcss();
     small_pcf.side = small_pcss.side = 1024;
-    return {{"none", "none", FilterMode::automatic, 1, 0},
-            {"hard", "hard", FilterMode::automatic, std::nullopt, 0},
-            auto_pcf(),
-            fixed_pcf(),
-            small_pcf,
-            auto_pcss(),
-            fixed_pcss(),
-            small_pcss};
+    std::vector<Configuration> list{{"none", "none", FilterMode::automatic, 1, 0},
+                                    {"hard", "hard", FilterMode::automatic, std::nullopt, 0},
+                                    auto_pcf(),
+                                    fixed_pcf(),
+                                    small_pcf,
+                                    auto_pcss(),
+                                    fixed_pcss(),
+                                    small_pcss};
+    for (const Configuration& one : ablations()) {
+        if (one.no_skip == "all" || one.no_skip.empty()) list.push_back(one);
+    }
+    return list;
 }
 
 double map_bytes(const Configuration& configuration, int largest_size) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "renderer/light_warp.h"
+#include "renderer/shadow_settings.h"
 #include "renderer/techniques/technique.h"
 
 namespace stairstep::bench {
@@ -38,6 +39,8 @@ struct Configuration {
     /// Taps of the filter, and of pcss's blocker search, where they take taps; else 0.
     int taps = 0;
     Warp warp = Warp::none;
+    /// What of the things that frames leave out is drawn all the same (shadow_settings.h).
+    std::string no_skip = kDrawsUnchanged;
 
     bool operator==(const Configuration&) const = default;
 };
@@ -56,6 +59,10 @@ Configuration auto_pcf();
 Configuration fixed_pcf();
 Configuration auto_pcss();
 Configuration fixed_pcss();
+
+/// The two that the bars are about, with one thing after another drawn that frames else leave out, then all of it, and as a frame
+/// in which nothing has moved.
+std::vector<Configuration> ablations();
 
 /// All techniques, hard and pcf-exact also under a warp, × {512, 1024, 2048, 4096, 8192, auto} × {9, 25, 49 taps}; none, which has no map, once.
 std::vector<Configuration> all_configurations();

@@ -32,6 +32,7 @@ ShadowRenderer make_renderer(const Configuration& configuration, const Measureme
     shadow.radius = subject.radius;
     shadow.fixed_size = configuration.side;
     shadow.warp = configuration.warp;
+    shadow.skips = skips_without(configuration.no_skip);
     shadow.largest_size = settings.largest_size;
     return ShadowRenderer(technique_named(configuration.entry), shadow, subject.scene, subject.state,
                           aspect_of(settings));

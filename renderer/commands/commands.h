@@ -10,5 +10,6 @@ namespace stairstep {
 
 void add_bench_command(CLI::App& app);
 void add_scaling_command(CLI::App& app);
+void add_stress_command(CLI::App& app);
 
 }  // namespace stairstep

@@ -22,7 +22,7 @@ struct WorldMesh {
     }
 };
 
-/// The scene's meshes in their order, those that move where the state has them.
+/// The scene's meshes in their order, those that move where the state has them, without triangles that aren't finite (scene.h).
 std::vector<WorldMesh> world_meshes(const Scene& scene, const SceneState& state);
 
 }  // namespace stairstep
