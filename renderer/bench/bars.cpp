@@ -18,6 +18,37 @@ void add_wobble(std::vector<Bar>& bars, const std::string& what, const Measureme
     bars.push_back({what, sized.wobble->mean() <= fixed.wobble->mean(), figures});
 }
 
+/// Against the fixed map as common practice draws it.
+void add_speed(std::vector<Bar>& bars, const std::vector<Measurement>& measurements, const Measurement& sized,
+               Configuration fixed, double times) {
+    fixed.no_skip = "all";
+    const Measurement* whole = find(measurements, fixed);
+    if (!whole) return;
+    const double faster = whole->frame.cpu_ms / sized.frame.cpu_ms;
+    bars.push_back(
+        {label(sized.configuration) + " at least " + format_fixed(times, 0) + " times as fast as " + label(fixed),
+         faster >= times, format_fixed(faster, 1) + " times"});
+}
+
+void add_floor(std::vector<Bar>& bars, const std::vector<Measurement>& measurements, const Measurement& sized) {
+    const Measurement* hard = find(measurements, {"hard", "hard", FilterMode::automatic, std::nullopt, 0});
+    if (!hard) return;
+    const double ratio = sized.frame.cpu_ms / hard->frame.cpu_ms;
+    bars.push_back({label(sized.configuration) + " in at most 1.3 of the time of hard shadows of the same size",
+                    ratio <= kFloorBar, "time x " + format_fixed(ratio, 2)});
+}
+
+void add_still(std::vector<Bar>& bars, const std::vector<Measurement>& measurements, Configuration still) {
+    still.no_skip = "";
+    const Measurement* one = find(measurements, still);
+    const Measurement* hard = find(measurements, {"hard", "hard", FilterMode::automatic, std::nullopt, 0});
+    const Measurement* none = find(measurements, {"none", "none", FilterMode::automatic, 1, 0});
+    if (!one || !hard || !none) return;
+    const double floor = none->frame.cpu_ms + hard->lighting.cpu_ms - none->lighting.cpu_ms;
+    bars.push_back({label(still) + ", in no more than without shadows and a hard lookup", one->frame.cpu_ms <= floor,
+                    "time x " + format_fixed(one->frame.cpu_ms / floor, 2)});
+}
+
 }  // namespace
 
 std::vector<Bar> bars_of(const std::vector<Measurement>& measurements) {
@@ -51,6 +82,15 @@ std::vector<Bar> bars_of(const std::vector<Measurement>& measurements) {
     }
     if (pcss && pcss_fixed) {
         add_wobble(bars, "auto pcss-levels wobbles no more than pcss over 4096 x 4096", *pcss, *pcss_fixed);
+    }
+    if (pcf) {
+        add_speed(bars, measurements, *pcf, fixed_pcf(), kPcfSpeedBar);
+        add_floor(bars, measurements, *pcf);
+        add_still(bars, measurements, auto_pcf());
+    }
+    if (pcss) {
+        add_speed(bars, measurements, *pcss, fixed_pcss(), kPcssSpeedBar);
+        add_still(bars, measurements, auto_pcss());
     }
     return bars;
 }

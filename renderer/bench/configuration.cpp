@@ -68,8 +68,16 @@ Configuration fixed_pcss() {
     return {"pcss", "pcss", FilterMode::rotated, kBaselineSide, kBaselineTaps};
 }
 
+bool is_ablation(const Configuration& configuration) {
+    return configuration.no_skip != kDrawsUnchanged;
+}
+
 std::vector<Configuration> ablations() {
     std::vector<Configuration> list;
+    for (Configuration fixed : {fixed_pcf(), fixed_pcss()}) {
+        fixed.no_skip = "all";
+        list.push_back(fixed);
+    }
     for (const Configuration& whole : {auto_pcf(), auto_pcss()}) {
         for (const std::string drawn :
              {"hidden-surfaces", "unseen-triangles", "unseen-shadows", "even-texels", "all"}) {
@@ -86,6 +94,17 @@ std::vector<Configuration> ablations() {
 
 Configuration baseline_of(const Configuration& configuration) {
     return is_pcss(configuration) ? fixed_pcss() : fixed_pcf();
+}
+
+std::vector<Configuration> ablation_configurations() {
+    std::vector<Configuration> list{{"none", "none", FilterMode::automatic, 1, 0},
+                                    {"hard", "hard", FilterMode::automatic, std::nullopt, 0},
+                                    auto_pcf(),
+                                    fixed_pcf(),
+                                    auto_pcss(),
+                                    fixed_pcss()};
+    for (const Configuration& one : ablations()) list.push_back(one);
+    return list;
 }
 
 std::vector<Configuration> all_configurations() {

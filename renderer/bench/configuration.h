@@ -60,9 +60,15 @@ Configuration fixed_pcf();
 Configuration auto_pcss();
 Configuration fixed_pcss();
 
-/// The two that the bars are about, with one thing after another drawn that frames else leave out, then all of it, and as a frame
-/// in which nothing has moved.
+/// Whether it draws more, or less, of what frames leave out than others do: it says what that saves, and isn't on frontiers.
+bool is_ablation(const Configuration& configuration);
+
+/// The law's two that the bars are about, with one thing after another drawn that frames else leave out, then all of it, and as a
+/// frame in which nothing has moved; and the fixed ones with all of it drawn, as is common practice.
 std::vector<Configuration> ablations();
+
+/// ablations() and what they are compared with.
+std::vector<Configuration> ablation_configurations();
 
 /// All techniques, hard and pcf-exact also under a warp, × {512, 1024, 2048, 4096, 8192, auto} × {9, 25, 49 taps}; none, which has no map, once.
 std::vector<Configuration> all_configurations();

@@ -167,6 +167,7 @@ void find_frontiers(std::vector<Measurement>& measurements) {
         for (size_t i = 0; i < measurements.size(); ++i) {
             const Measurement& one = measurements[i];
             if ((truth_of(one.configuration) == TruthKind::area_light) != area_light) continue;
+            if (is_ablation(one.configuration)) continue;
             places.push_back(i);
             points.push_back({one.frame.cpu_ms, one.error.rmse});
         }

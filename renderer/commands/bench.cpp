@@ -20,6 +20,7 @@ struct Options {
     std::string out;
     std::optional<std::string> scenes;
     bool quick = false;
+    bool ablation = false;
     bool no_wobble = false;
     std::string size = "1280x720";
     std::optional<std::string> wobble_size;
@@ -38,6 +39,7 @@ struct Options {
 
 bench::BenchJob job_of(const Options& options) {
     bench::BenchJob job = options.quick ? bench::quick_job() : bench::BenchJob{};
+    if (options.ablation) job.configurations = bench::ablation_configurations();
     if (options.scenes) job.scenes = split(*options.scenes, ',');
     std::tie(job.measurement.width, job.measurement.height) = picture_size_of("--size", options.size);
     if (options.wobble_size) {
@@ -79,6 +81,7 @@ void add_bench_command(CLI::App& app) {
     command->add_option("--scenes", options->scenes,
                         "names or model files; default: crane,clutter,truck,colonnade,cornell,city");
     command->add_flag("--quick", options->quick, "three scenes, few configurations, cheaper truths: about a minute");
+    command->add_flag("--ablation", options->ablation, "only what each thing that frames leave out saves");
     command->add_option("--size", options->size, "of the picture, px")->capture_default_str();
     command->add_option("--frames", options->frames, "timed of each configuration; default: 10, quick: 5")
         ->check(CLI::Range(1, 10000));

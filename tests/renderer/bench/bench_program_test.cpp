@@ -49,8 +49,8 @@ TEST_F(BenchProgram, QuickPrintsTheBars) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
     const nlohmann::json json = nlohmann::json::parse(outcome.output);
     EXPECT_EQ(json["scenes"][0]["scene"], "crane");
-    EXPECT_EQ(json["scenes"][0]["configurations"], 8);
-    EXPECT_EQ(json["scenes"][0]["bars"].size(), 2u);
+    EXPECT_EQ(json["scenes"][0]["configurations"], 14);
+    EXPECT_EQ(json["scenes"][0]["bars"].size(), 7u);
     EXPECT_TRUE(std::filesystem::exists(out() / "index.html"));
 }
 
