@@ -165,10 +165,10 @@ void draw_surfaces(const gl::Program& program, const GpuScene& scene, const Scen
     gl::DepthFunc(GL_LESS);
 }
 
-/// Adds to what is there, for all lights but the first.
+/// Adds to the picture that is there, for all lights but the first. Needs and what is kept are each light's own.
 void set_blending(const LightPart& part) {
     if (part.index == 0) return;
-    gl::Enable(GL_BLEND);
+    gl::Enablei(GL_BLEND, 0);
     gl::BlendFunc(GL_ONE, GL_ONE);
 }
 

@@ -18,6 +18,9 @@ out vec2 texture_uv;
 // The triangle's own plane, n·x = d: n faces the viewer, so d ≤ 0.
 flat out vec4 vertex_plane;
 
+// The same in all programs, to the last bit: passes meet each other's depths, and pictures have the same edges.
+invariant gl_Position;
+
 void main() {
     vertex_from_eye = (eye_from_model * vec4(position, 1)).xyz;
     vertex_normal = mat3(eye_from_model) * normal;
