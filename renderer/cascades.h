@@ -6,8 +6,9 @@
 //   logarithmic   n·(f/n)^(i/N)
 //   practical     their mean
 //
-// Under the law all slices have the same texels, on one grid, as long as they have the same radius: a texel is r/c however much the
-// map covers. So there is no seam, and what a fixed size spends on the nearest slice isn't spent.
+// Under the law all slices have the same texels, on one grid, wherever the radius decides: a texel is r/c however much the map
+// covers. So there is no seam, and what a fixed size spends on the nearest slice isn't spent. Where a pixel's footprint decides,
+// farther slices get larger texels.
 #pragma once
 
 #include <string>

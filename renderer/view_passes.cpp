@@ -230,7 +230,11 @@ void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, 
     if (part.visibility == LightPart::Visibility::computed) technique.bind(program, map);
     // The first light writes every pixel: nothing to clear.
     const GLuint own = (part.need ? target.need_framebuffer : target.framebuffer).id();
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, part.framebuffer ? part.framebuffer : own);
+    const GLuint framebuffer = part.framebuffer ? part.framebuffer : own;
+    // Other slices' pixels need nothing of this one's map.
+    const glm::vec4 no_need(1e30f);
+    if (part.need && part.slice) gl::ClearNamedFramebufferfv(framebuffer, GL_COLOR, 1, &no_need.x);
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     gl::Viewport(0, 0, target.width, target.height);
     gl::Disable(GL_DEPTH_TEST);
     gl::Enable(GL_FRAMEBUFFER_SRGB);

@@ -13,7 +13,8 @@ Surface surface_here() {
     vec4 plane = texelFetch(planes, pixel, 0);
     vec3 ray = ray_corner + gl_FragCoord.x * ray_right + gl_FragCoord.y * ray_up;
     uvec2 material = texelFetch(materials, pixel, 0).rg;
-    float along = plane.xyz == vec3(0) ? 1 : plane.w / dot(plane.xyz, ray);
+    // A plane seen from its very edge is met far away, not nowhere.
+    float along = plane.xyz == vec3(0) ? 1 : plane.w / min(dot(plane.xyz, ray), -1e-7);
     return Surface(along * ray, plane.xyz, unpacked_normal(material), unpacked_base_colour(material),
                    (material.y >> 30) != 0u);
 }

@@ -20,7 +20,7 @@ constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
 constexpr int kFramesOfAState = 3;
 /// Stored surfaces lie where a ray meets a plane, drawn ones where a rasteriser interpolates, and both are rounded: a filter that
 /// begins or ends right at a caster's edge may fall on its other side. Levels of 255, and how many of the 14,400 pixels may differ by
-/// more. A line of the crane's, a pixel high and 17 long, is in one picture and missing from the other.
+/// more. A line of the crane's on the horizon, a pixel high, is in one picture and missing from the other: not understood yet.
 constexpr int kLevels = 1;
 int most_others(const std::string& scene) {
     return scene == "crane" ? 17 : 5;
