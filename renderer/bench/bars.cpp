@@ -18,13 +18,6 @@ void add_wobble(std::vector<Bar>& bars, const std::string& what, const Measureme
     bars.push_back({what, sized.wobble->mean() <= fixed.wobble->mean(), figures});
 }
 
-/// A frame's time as its ratio to the baseline has it: configurations of different groups weren't timed in turn, and the machine may
-/// have been slower in one.
-double steady_ms(const std::vector<Measurement>& measurements, const Measurement& one) {
-    const Measurement* baseline = find(measurements, baseline_of(one.configuration));
-    return baseline ? one.time_ratio * baseline->frame.cpu_ms : one.frame.cpu_ms;
-}
-
 /// Against the fixed map as common practice draws it.
 void add_speed(std::vector<Bar>& bars, const std::vector<Measurement>& measurements, const Measurement& sized,
                Configuration fixed, double times) {

@@ -22,8 +22,8 @@ struct Point {
     double y = 0;
 };
 
-Point point_of(const Measurement& one) {
-    return {one.frame.cpu_ms, std::max(one.error.rmse, kLeastError)};
+Point point_of(const std::vector<Measurement>& measurements, const Measurement& one) {
+    return {steady_ms(measurements, one), std::max(one.error.rmse, kLeastError)};
 }
 
 bool is_soft(const Measurement& one) {
@@ -53,8 +53,9 @@ std::string panel(const std::vector<Measurement>& measurements, bool soft, const
     std::vector<Point> best;
     std::map<std::string, std::string> fixed, sized;
     for (const Measurement& one : measurements) {
+        if (is_ablation(one.configuration)) continue;
         if (is_soft(one) != soft) continue;
-        const Point point = point_of(one);
+        const Point point = point_of(measurements, one);
         all.push_back(point);
         if (one.on_frontier) best.push_back(point);
         std::string& rows = (one.configuration.side ? fixed : sized)[one.configuration.technique];

@@ -169,7 +169,7 @@ void find_frontiers(std::vector<Measurement>& measurements) {
             if ((truth_of(one.configuration) == TruthKind::area_light) != area_light) continue;
             if (is_ablation(one.configuration)) continue;
             places.push_back(i);
-            points.push_back({one.frame.cpu_ms, one.error.rmse});
+            points.push_back({steady_ms(measurements, one), one.error.rmse});
         }
         const std::vector<bool> best = on_frontier(points);
         for (size_t i = 0; i < points.size(); ++i) {
@@ -184,6 +184,11 @@ void find_frontiers(std::vector<Measurement>& measurements) {
 const Measurement* find(const std::vector<Measurement>& measurements, const Configuration& configuration) {
     const auto found = std::ranges::find(measurements, configuration, &Measurement::configuration);
     return found == measurements.end() ? nullptr : &*found;
+}
+
+double steady_ms(const std::vector<Measurement>& measurements, const Measurement& one) {
+    const Measurement* baseline = find(measurements, baseline_of(one.configuration));
+    return baseline ? one.time_ratio * baseline->frame.cpu_ms : one.frame.cpu_ms;
 }
 
 }  // namespace stairstep::bench

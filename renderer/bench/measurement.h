@@ -87,6 +87,10 @@ ShadowRenderer settled_renderer(const Configuration& configuration, const Measur
 /// measured against their filters separately: errors against different truths say nothing of each other.
 void find_frontiers(std::vector<Measurement>& measurements);
 
+/// A frame's time, ms, as its ratio to the baseline has it: configurations of different groups weren't timed in turn, and the machine
+/// may have been slower in one. As it was where the baseline isn't there.
+double steady_ms(const std::vector<Measurement>& measurements, const Measurement& one);
+
 /// The measurement of a configuration; nullptr where it isn't there.
 const Measurement* find(const std::vector<Measurement>& measurements, const Configuration& configuration);
 
