@@ -23,8 +23,10 @@ void main() {
     float light = light_at(surface.from_eye, surface.facet, towards);
     vec3 irradiance = kSun * max(dot(surface.normal, towards), 0) * in_cone(towards) * light;
     if (first_light != 0) irradiance += mix(kBounce, kSky, 0.5 + 0.5 * surface.normal.y);
-    float fade = surface.facet == vec3(0) ? 1 : 0;
+    float fade = 0;
     if (surface.fades) fade = smoothstep(fade_range.x, fade_range.y, distance(surface.from_eye, middle_from_eye));
+    // Where nothing is, what is stored of a surface is an earlier frame's.
+    if (surface.facet == vec3(0)) fade = 1;
     vec3 behind = first_light != 0 ? background : vec3(0);
     colour = vec4(mix(surface.base_colour * irradiance, behind, fade), 1);
     shown_need = needed_texel;
