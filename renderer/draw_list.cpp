@@ -6,7 +6,6 @@ namespace {
 bool belongs(const GpuScene::Draw& draw, Which which) {
     switch (which) {
         case Which::all: return true;
-        case Which::casters: return draw.casts;
         case Which::still_casters: return draw.casts && !draw.mover;
         case Which::moving_casters: break;
     }

@@ -8,8 +8,8 @@
 
 namespace stairstep {
 
-/// All, or those that cast shadows; of these the ones that stand still, or the ones that move.
-enum class Which { all, casters, still_casters, moving_casters };
+/// All, or of those that cast shadows the ones that stand still, or the ones that move.
+enum class Which { all, still_casters, moving_casters };
 
 struct DrawList {
     struct Item {

@@ -21,6 +21,7 @@ struct FrameTime {
     double cpu_ms() const {
         return depth.cpu_ms + prepare.cpu_ms + surfaces.cpu_ms + lighting.cpu_ms + need.cpu_ms + fit_ms;
     }
+    double gpu_ms() const { return depth.gpu_ms + prepare.gpu_ms + surfaces.gpu_ms + lighting.gpu_ms + need.gpu_ms; }
 };
 
 }  // namespace stairstep

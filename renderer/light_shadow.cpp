@@ -17,18 +17,6 @@ double light_plane_radius(double radius, const Light& light, const glm::dvec3& m
     return radius / std::max(depth_along(light, middle), 1e-9);
 }
 
-/// Of all casters, where they are.
-glm::dvec3 middle_of_casters(const SceneExtents& extents, const SceneState& state) {
-    Bounds bounds;
-    for (size_t i = 0; i < extents.parts.size(); ++i) {
-        const glm::dmat4 placement = SceneExtents::placement(state, i);
-        for (const glm::vec3& corner : extents.parts[i].casters) {
-            bounds.add(glm::dvec3(placement * glm::dvec4(corner, 1)));
-        }
-    }
-    return bounds.empty() ? glm::dvec3(0) : bounds.centre();
-}
-
 TechniqueSettings technique_settings(const ShadowSettings& settings) {
     TechniqueSettings technique = settings.technique;
     technique.skip_even_texels = settings.skips.even_texels;
@@ -38,9 +26,9 @@ TechniqueSettings technique_settings(const ShadowSettings& settings) {
 }  // namespace
 
 LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
-                         const SceneState& first, double aspect)
+                         const SceneState& first, double aspect, const glm::dvec3& middle)
     : settings_(settings),
-      middle_(middle_of_casters(scene.extents, first)),
+      middle_(middle),
       map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)))) {
     // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
     map_.filter_radius = light_plane_radius(settings.radius, first.light, middle_);

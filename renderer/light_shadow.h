@@ -15,10 +15,10 @@ namespace stairstep {
 
 class LightShadow {
   public:
-    /// `first` is the first state that will be drawn: with this light, and a camera that sees no more than this slice. Throws as the
-    /// technique's make, and FailureError.
+    /// `first` is the first state that will be drawn: with this light, and a camera that sees no more than this slice. `middle` is
+    /// where a spot's constant filter has its radius. Throws as the technique's make, and FailureError.
     LightShadow(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
-                const SceneState& first, double aspect);
+                const SceneState& first, double aspect, const glm::dvec3& middle);
 
     /// The map that this frame takes.
     ShadowMapShape choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px);
@@ -55,7 +55,6 @@ class LightShadow {
     void keep(const Seen& seen, const FrameTarget& target, LightPart& part);
 
     ShadowSettings settings_;
-    /// Where a spot's constant filter has its radius: the casters' middle in the first state, so that it doesn't change as they move.
     glm::dvec3 middle_;
     std::unique_ptr<ShadowTechnique> technique_;
     ShadowMap map_;

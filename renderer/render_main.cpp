@@ -191,11 +191,9 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
     command->add_option("--splits", options.splits, "where: uniform, logarithmic or practical (their mean)")
         ->capture_default_str();
     command
-        ->add_option(
-            "--no-skip", options.no_skip,
-            "draws what frames else leave out, the picture being the same: names separated by commas, of "
-            "hidden-surfaces, unseen-triangles, unseen-shadows, unchanged-maps, unchanged-pixels, even-texels; all; "
-            "empty for none")
+        ->add_option("--no-skip", options.no_skip,
+                     "draws what frames else leave out, the picture being the same: names separated by commas, of " +
+                         skip_names() + "; all; empty for none")
         ->capture_default_str();
     command
         ->add_option("--warp", options.warp,

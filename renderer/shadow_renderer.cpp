@@ -40,6 +40,18 @@ SceneState seen_by(const SceneState& state, size_t light, const glm::dvec2* slic
     return own;
 }
 
+/// Of all casters, where they are.
+glm::dvec3 middle_of_casters(const SceneExtents& extents, const SceneState& state) {
+    Bounds bounds;
+    for (size_t i = 0; i < extents.parts.size(); ++i) {
+        const glm::dmat4 placement = SceneExtents::placement(state, i);
+        for (const glm::vec3& corner : extents.parts[i].casters) {
+            bounds.add(glm::dvec3(placement * glm::dvec4(corner, 1)));
+        }
+    }
+    return bounds.empty() ? glm::dvec3(0) : bounds.centre();
+}
+
 /// Milliseconds that something takes on the CPU.
 template <typename Work>
 double timed_ms(Work work) {
@@ -52,7 +64,10 @@ double timed_ms(Work work) {
 
 ShadowRenderer::ShadowRenderer(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                                const SceneState& first, double aspect)
-    : entry_(entry), settings_(settings), lighting_pass_(std::string(entry.name)) {
+    : entry_(entry),
+      settings_(settings),
+      middle_(middle_of_casters(scene.extents, first)),
+      lighting_pass_(std::string(entry.name)) {
     match_lights(scene, first, aspect);
 }
 
@@ -61,7 +76,7 @@ void ShadowRenderer::match_lights(const GpuScene& scene, const SceneState& state
     while (shadows_.size() > wanted) shadows_.pop_back();
     while (shadows_.size() < wanted) {
         const size_t light = shadows_.size() / settings_.cascades.count;
-        shadows_.emplace_back(entry_, settings_, scene, seen_by(state, light, nullptr), aspect);
+        shadows_.emplace_back(entry_, settings_, scene, seen_by(state, light, nullptr), aspect, middle_);
     }
 }
 

@@ -37,6 +37,9 @@ class ShadowRenderer {
 
     TechniqueEntry entry_;
     ShadowSettings settings_;
+    /// Where spots' constant filters have their radius: the casters' middle in the first state, so that it doesn't change as they
+    /// move.
+    glm::dvec3 middle_;
     SurfacePass surface_pass_;
     LightingPass lighting_pass_;
     std::vector<LightShadow> shadows_;

@@ -7,6 +7,12 @@
 
 namespace stairstep {
 
+std::string skip_names() {
+    std::string names;
+    for (const SkipName& skip : kSkips) names += (names.empty() ? "" : ", ") + std::string(skip.name);
+    return names;
+}
+
 Skips skips_without(const std::string& names) {
     Skips skips;
     if (names.empty()) return skips;
@@ -18,9 +24,8 @@ Skips skips_without(const std::string& names) {
         } else if (found != std::end(kSkips)) {
             skips.*found->skip = false;
         } else {
-            std::string list = "all";
-            for (const SkipName& skip : kSkips) list += ", " + std::string(skip.name);
-            throw InputError("--no-skip", "\"" + name + "\" is nothing that is skipped", "use one of " + list);
+            throw InputError("--no-skip", "\"" + name + "\" is nothing that is skipped",
+                             "use one of all, " + skip_names());
         }
     }
     return skips;

@@ -42,6 +42,9 @@ inline constexpr SkipName kSkips[]{
     {"unchanged-pixels", &Skips::unchanged_pixels}, {"even-texels", &Skips::even_texels},
 };
 
+/// "hidden-surfaces, unseen-triangles, …".
+std::string skip_names();
+
 /// All skips but those in the list of names, separated by commas; "all" is all of them, and "" none. Throws InputError that lists
 /// the names there are.
 Skips skips_without(const std::string& names);

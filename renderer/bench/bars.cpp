@@ -31,7 +31,7 @@ void add_speed(std::vector<Bar>& bars, const std::vector<Measurement>& measureme
 }
 
 void add_floor(std::vector<Bar>& bars, const std::vector<Measurement>& measurements, const Measurement& sized) {
-    const Measurement* hard = find(measurements, {"hard", "hard", FilterMode::automatic, std::nullopt, 0});
+    const Measurement* hard = find(measurements, auto_hard());
     if (!hard) return;
     const double ratio = steady_ms(measurements, sized) / steady_ms(measurements, *hard);
     bars.push_back({label(sized.configuration) + " in at most 1.3 of the time of hard shadows of the same size",
@@ -41,8 +41,8 @@ void add_floor(std::vector<Bar>& bars, const std::vector<Measurement>& measureme
 void add_still(std::vector<Bar>& bars, const std::vector<Measurement>& measurements, Configuration still) {
     still.no_skip = "";
     const Measurement* one = find(measurements, still);
-    const Measurement* hard = find(measurements, {"hard", "hard", FilterMode::automatic, std::nullopt, 0});
-    const Measurement* none = find(measurements, {"none", "none", FilterMode::automatic, 1, 0});
+    const Measurement* hard = find(measurements, auto_hard());
+    const Measurement* none = find(measurements, without_shadows());
     if (!one || !hard || !none) return;
     // The lookup: what hard shadows' lighting takes beyond none.
     const double floor =

@@ -52,6 +52,14 @@ TruthKind truth_of(const Configuration& configuration) {
     return disk ? TruthKind::disk_filter : TruthKind::box_filter;
 }
 
+Configuration without_shadows() {
+    return {"none", "none", FilterMode::automatic, 1, 0};
+}
+
+Configuration auto_hard() {
+    return {"hard", "hard", FilterMode::automatic, std::nullopt, 0};
+}
+
 Configuration auto_pcf() {
     return {"pcf-exact", "pcf", FilterMode::exact, std::nullopt, 0};
 }
@@ -97,18 +105,13 @@ Configuration baseline_of(const Configuration& configuration) {
 }
 
 std::vector<Configuration> ablation_configurations() {
-    std::vector<Configuration> list{{"none", "none", FilterMode::automatic, 1, 0},
-                                    {"hard", "hard", FilterMode::automatic, std::nullopt, 0},
-                                    auto_pcf(),
-                                    fixed_pcf(),
-                                    auto_pcss(),
-                                    fixed_pcss()};
+    std::vector<Configuration> list{without_shadows(), auto_hard(), auto_pcf(), fixed_pcf(), auto_pcss(), fixed_pcss()};
     for (const Configuration& one : ablations()) list.push_back(one);
     return list;
 }
 
 std::vector<Configuration> all_configurations() {
-    std::vector<Configuration> list{{"none", "none", FilterMode::automatic, 1, 0}};
+    std::vector<Configuration> list{without_shadows()};
     const auto add = [&](const std::string& technique, const std::string& entry, FilterMode filter, int taps,
                          Warp warp = Warp::none) {
         for (const auto& side : kSides) list.push_back({technique, entry, filter, side, taps, warp});
@@ -131,14 +134,8 @@ std::vector<Configuration> quick_configurations() {
     Configuration small_pcf = fixed_pcf();
     Configuration small_pcss = fixed_pcss();
     small_pcf.side = small_pcss.side = 1024;
-    std::vector<Configuration> list{{"none", "none", FilterMode::automatic, 1, 0},
-                                    {"hard", "hard", FilterMode::automatic, std::nullopt, 0},
-                                    auto_pcf(),
-                                    fixed_pcf(),
-                                    small_pcf,
-                                    auto_pcss(),
-                                    fixed_pcss(),
-                                    small_pcss};
+    std::vector<Configuration> list{without_shadows(), auto_hard(), auto_pcf(),   fixed_pcf(),
+                                    small_pcf,         auto_pcss(), fixed_pcss(), small_pcss};
     for (const Configuration& one : ablations()) {
         if (one.no_skip == "all" || one.no_skip.empty()) list.push_back(one);
     }

@@ -55,6 +55,8 @@ TruthKind truth_of(const Configuration& configuration);
 Configuration baseline_of(const Configuration& configuration);
 
 /// The configurations whose pictures are shown, whose wobble is measured, and which the bars are about.
+Configuration without_shadows();
+Configuration auto_hard();
 Configuration auto_pcf();
 Configuration fixed_pcf();
 Configuration auto_pcss();

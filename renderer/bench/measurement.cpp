@@ -16,8 +16,6 @@ namespace {
 /// waited for at most.
 constexpr int kSettledFrames = 4;
 constexpr int kMostSettlingFrames = 40;
-/// As PcfExact has it: exact filters beyond this many texels a side take seconds a frame.
-constexpr double kWidestExact_texels = 128;
 
 double aspect_of(const MeasurementSettings& settings) {
     return static_cast<double>(settings.width) / settings.height;
@@ -113,7 +111,7 @@ std::vector<Configuration> feasible(const std::vector<Configuration>& list, cons
     std::vector<Configuration> result;
     for (const Configuration& one : list) {
         const double width = one.side.value_or(0) * (one.warp == Warp::none ? across : across_warped);
-        if (is_fixed_exact(one) && width > kWidestExact_texels) {
+        if (is_fixed_exact(one) && width > kWidestExact) {
             notes.push_back(label(one) + " is left out: its filter is " + format_fixed(width, 0) + " texels wide");
         } else {
             result.push_back(one);

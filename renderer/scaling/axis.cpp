@@ -84,12 +84,8 @@ const Axis& axis_named(const std::string& name) {
 }
 
 std::vector<bench::Configuration> all_techniques() {
-    return {{"none", "none", FilterMode::automatic, 1, 0},
-            {"hard", "hard", FilterMode::automatic, std::nullopt, 0},
-            bench::auto_pcf(),
-            bench::fixed_pcf(),
-            bench::auto_pcss(),
-            bench::fixed_pcss()};
+    return {bench::without_shadows(), bench::auto_hard(), bench::auto_pcf(),
+            bench::fixed_pcf(),       bench::auto_pcss(), bench::fixed_pcss()};
 }
 
 std::vector<bench::Configuration> techniques_on(const Axis& axis, const std::vector<bench::Configuration>& list) {

@@ -14,8 +14,6 @@ namespace {
 
 /// A box this narrow, in texels, looks like a single texel; a narrower one's area would drown in rounding.
 constexpr double kNarrowestExact = 1e-3;
-/// Exact filtering beyond this many texels a side takes seconds a frame.
-constexpr double kWidestExact = 128;
 
 /// Finding the ranges of more takes as long as they save.
 constexpr size_t kMostTexelsForRanges = size_t{4} << 20;

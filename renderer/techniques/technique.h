@@ -36,6 +36,8 @@ std::string_view name(FilterMode mode);
 FilterMode filter_mode_named(const std::string& name);
 
 inline constexpr double kWidestAutomaticExact = 16;
+/// Exact filtering beyond this many texels a side takes seconds a frame.
+inline constexpr double kWidestExact = 128;
 
 inline constexpr double kMostBleedingReduction = 0.95;
 
