@@ -35,12 +35,25 @@ void split(std::span<Triangle> triangles, const FacetMesh& mesh, size_t first, s
     split(triangles.subspan(half), mesh, first + half, clusters);
 }
 
-/// Whether a plane has all of the box on its outer side.
-bool is_outside(const Bounds& bounds, const glm::dvec4& plane) {
+/// How far the box reaches beyond a plane, on its inner side.
+double reach_beyond(const Bounds& bounds, const glm::dvec4& plane) {
     const glm::dvec3 normal(plane);
     const glm::dvec3 farthest(normal.x > 0 ? bounds.high.x : bounds.low.x, normal.y > 0 ? bounds.high.y : bounds.low.y,
                               normal.z > 0 ? bounds.high.z : bounds.low.z);
-    return glm::dot(normal, farthest) + plane.w < 0;
+    return glm::dot(normal, farthest) + plane.w;
+}
+
+bool is_within(const Bounds& bounds, std::span<const glm::dvec4> planes) {
+    return std::none_of(planes.begin(), planes.end(),
+                        [&](const glm::dvec4& plane) { return reach_beyond(bounds, plane) < 0; });
+}
+
+void append(std::vector<IndexRun>& runs, const Cluster& cluster) {
+    if (!runs.empty() && runs.back().first_index + runs.back().index_count == cluster.first_index) {
+        runs.back().index_count += cluster.index_count;
+    } else {
+        runs.push_back({cluster.first_index, cluster.index_count});
+    }
 }
 
 }  // namespace
@@ -66,15 +79,22 @@ std::vector<Cluster> make_clusters(FacetMesh& mesh) {
 std::vector<IndexRun> runs_within(std::span<const Cluster> clusters, std::span<const glm::dvec4> planes) {
     std::vector<IndexRun> runs;
     for (const Cluster& cluster : clusters) {
-        const auto cuts = [&](const glm::dvec4& plane) { return is_outside(cluster.bounds, plane); };
-        if (std::any_of(planes.begin(), planes.end(), cuts)) continue;
-        if (!runs.empty() && runs.back().first_index + runs.back().index_count == cluster.first_index) {
-            runs.back().index_count += cluster.index_count;
-        } else {
-            runs.push_back({cluster.first_index, cluster.index_count});
-        }
+        if (is_within(cluster.bounds, planes)) append(runs, cluster);
     }
     return runs;
+}
+
+OrderedRuns runs_from(const glm::dvec4& front, std::span<const Cluster> clusters, std::span<const glm::dvec4> planes) {
+    std::vector<std::pair<double, const Cluster*>> reaches;
+    for (const Cluster& cluster : clusters) {
+        if (is_within(cluster.bounds, planes)) reaches.emplace_back(reach_beyond(cluster.bounds, front), &cluster);
+    }
+    // Clusters lie in the order of their addresses, so that none changes places with another that is as far.
+    std::sort(reaches.begin(), reaches.end());
+    OrderedRuns ordered;
+    for (const auto& [reach, cluster] : reaches) append(ordered.runs, *cluster);
+    if (!reaches.empty()) ordered.farthest = reaches.back().first;
+    return ordered;
 }
 
 }  // namespace stairstep

@@ -37,4 +37,13 @@ struct IndexRun {
 /// space. A cluster outside of one plane is left out; without planes all clusters are one run.
 std::vector<IndexRun> runs_within(std::span<const Cluster> clusters, std::span<const glm::dvec4> planes);
 
+/// The same in order of how far beyond a plane the clusters reach, nearest first: then most of what is hidden is drawn after what
+/// hides it, and what lies under everything, as a ground does, comes last. Each cluster is a run, unless the next one follows it.
+struct OrderedRuns {
+    std::vector<IndexRun> runs;
+    /// How far the last of them reaches beyond the plane, in multiples of its normal's length.
+    double farthest = -INFINITY;
+};
+OrderedRuns runs_from(const glm::dvec4& front, std::span<const Cluster> clusters, std::span<const glm::dvec4> planes);
+
 }  // namespace stairstep

@@ -1,6 +1,7 @@
 #include "renderer/depth_pass.h"
 
 #include "embedded/shaders.h"
+#include "renderer/back_faces.h"
 
 namespace stairstep {
 
@@ -26,11 +27,14 @@ void DepthPass::draw(const GpuScene& scene, const SceneState& state, const DrawL
     gl::Enable(GL_DEPTH_CLAMP);
     gl::UseProgram(program_.id());
     gl::BindVertexArray(scene.vertex_array.id());
+    const std::vector<glm::dvec3> starts = ray_starts(shape.frustum);
     for (const DrawList::Item& item : casters.items) {
+        if (!casters.back_faces) set_faces(scene.draws[item.draw], state, starts);
         const glm::dmat4 texel_from_model = texel_from_world * world_from_model(scene.draws[item.draw], state);
         gl::set_uniform(program_, "texel_from_model", glm::mat4(texel_from_model));
         draw_runs(scene, item);
     }
+    set_both_faces();
     gl::Disable(GL_DEPTH_CLAMP);
 }
 

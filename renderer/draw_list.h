@@ -20,12 +20,19 @@ struct DrawList {
         bool operator==(const Item&) const = default;
     };
     std::vector<Item> items;
+    /// Whether those of solids (solids.h), which are nowhere the nearest surface, are drawn as well.
+    bool back_faces = true;
 
     bool operator==(const DrawList&) const = default;
 };
 
 /// What may lie on the inner side of all planes (world space, as cut_corners has them), by clusters.
-DrawList draw_list(const GpuScene& scene, const SceneState& state, std::span<const glm::dvec4> planes, Which which);
+DrawList draw_list(const GpuScene& scene, const SceneState& state, std::span<const glm::dvec4> planes, Which which,
+                   bool back_faces);
+
+/// All that may, front to back as seen from a plane (clusters.h).
+DrawList draw_list_from(const glm::dvec4& front, const GpuScene& scene, const SceneState& state,
+                        std::span<const glm::dvec4> planes, bool back_faces);
 
 size_t triangle_count(const DrawList& list);
 

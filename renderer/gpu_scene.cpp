@@ -3,6 +3,7 @@
 #include <atomic>
 #include <bit>
 #include <cstddef>
+#include <utility>
 
 namespace stairstep {
 namespace {
@@ -32,6 +33,14 @@ void set_attribute(const gl::VertexArray& array, GLuint index, GLint components,
     gl::VertexArrayAttribBinding(array.id(), index, 0);
 }
 
+std::vector<uint32_t> indices_of(const std::vector<uint32_t>& all, const Solids& solids, bool of_solids) {
+    std::vector<uint32_t> indices;
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (solids.has_triangle[i / 3] == of_solids) indices.push_back(all[i]);
+    }
+    return indices;
+}
+
 }  // namespace
 
 glm::dmat4 world_from_model(const GpuScene::Draw& draw, const SceneState& state) {
@@ -49,10 +58,17 @@ GpuScene upload(const Scene& scene) {
         FacetMesh facets = facet_mesh(mesh);
         if (facets.indices.empty()) continue;
         const auto base = static_cast<uint32_t>(vertices.size());
-        std::vector<Cluster> clusters = make_clusters(facets);
-        gpu.draws.push_back(
-            {indices.size(), std::move(clusters), scene.materials[mesh.material], mesh.casts, mesh.fades, mesh.mover});
-        for (const uint32_t index : facets.indices) indices.push_back(base + index);
+        Solids solids = find_solids(facets);
+        const std::vector<uint32_t> all = std::exchange(facets.indices, {});
+        for (const bool of_solids : {true, false}) {
+            facets.indices = indices_of(all, solids, of_solids);
+            if (facets.indices.empty()) continue;
+            std::vector<Cluster> clusters = make_clusters(facets);
+            gpu.draws.push_back({indices.size(), std::move(clusters),
+                                 of_solids ? std::move(solids.bounds) : std::vector<Bounds>{},
+                                 scene.materials[mesh.material], mesh.casts, mesh.fades, mesh.mover});
+            for (const uint32_t index : facets.indices) indices.push_back(base + index);
+        }
         vertices.insert(vertices.end(), facets.vertices.begin(), facets.vertices.end());
     }
     if (indices.empty()) {

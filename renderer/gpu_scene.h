@@ -7,6 +7,7 @@
 #include "renderer/gl/objects.h"
 #include "renderer/scene_extents.h"
 #include "renderer/scene_state.h"
+#include "renderer/solids.h"
 
 namespace stairstep {
 
@@ -16,6 +17,8 @@ struct GpuScene {
     struct Draw {
         size_t first_index = 0;
         std::vector<Cluster> clusters;
+        /// Boxes around the solids that its triangles are of, model space; of none, if they don't all belong to one.
+        std::vector<Bounds> solids;
         Material material;
         bool casts = true;
         bool fades = false;

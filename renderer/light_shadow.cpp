@@ -81,7 +81,8 @@ void LightShadow::update_map(const ShadowMapShape& shape, const GpuScene& scene,
     if (!technique_->reads_map() || (skips.unseen_shadows && shape.frustum.shadowless)) return;
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     timer.start();
-    const bool drawn = keeper_.update(scene, state, map_, {skips.unseen_triangles, skips.unchanged_maps});
+    const bool drawn =
+        keeper_.update(scene, state, map_, {skips.unseen_triangles, skips.unchanged_maps, !skips.back_faces});
     time.depth += timer.stop();
     if (!drawn) return;
     timer.start();

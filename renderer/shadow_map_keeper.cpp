@@ -15,8 +15,9 @@ void ShadowMapKeeper::copy_still_casters(const ShadowMap& map) const {
 bool ShadowMapKeeper::update(const GpuScene& scene, const SceneState& state, const ShadowMap& map,
                              const Options& options) {
     const std::vector<glm::dvec4> planes = options.cull ? map.shape.frustum.caster_planes : std::vector<glm::dvec4>{};
-    DrawList moving = draw_list(scene, state, planes, Which::moving_casters);
-    Content still{scene.serial, map.shape, draw_list(scene, state, planes, Which::still_casters), {}};
+    const auto list = [&](Which which) { return draw_list(scene, state, planes, which, options.back_faces); };
+    DrawList moving = list(Which::moving_casters);
+    Content still{scene.serial, map.shape, list(Which::still_casters), {}};
     Content content = still;
     content.casters.items.insert(content.casters.items.end(), moving.items.begin(), moving.items.end());
     for (const DrawList::Item& item : moving.items)

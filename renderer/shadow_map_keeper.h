@@ -19,6 +19,8 @@ class ShadowMapKeeper {
         bool cull = true;
         /// Keep what didn't change.
         bool keep = true;
+        /// Draw the back faces of solids as well: they are nowhere nearest to the light.
+        bool back_faces = false;
     };
 
     /// Makes `map` hold its shape's casters. Whether it had to draw.

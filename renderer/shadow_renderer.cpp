@@ -52,6 +52,11 @@ glm::dvec3 middle_of_casters(const SceneExtents& extents, const SceneState& stat
     return bounds.empty() ? glm::dvec3(0) : bounds.centre();
 }
 
+/// The plane through the eye, facing along the view.
+glm::dvec4 along_view(const Camera& camera) {
+    return {-camera.basis.back, glm::dot(camera.basis.back, camera.eye)};
+}
+
 /// Milliseconds that something takes on the CPU.
 template <typename Work>
 double timed_ms(Work work) {
@@ -95,7 +100,9 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, const Gpu
     time.fit_ms += timed_ms([&] {
         const std::vector<glm::dvec4> view =
             settings_.skips.unseen_triangles ? view_planes(state.camera, aspect) : std::vector<glm::dvec4>{};
-        surfaces = draw_list(scene, state, view, Which::all);
+        const bool back_faces = !settings_.skips.back_faces;
+        surfaces = settings_.skips.overdraw ? draw_list_from(along_view(state.camera), scene, state, view, back_faces)
+                                            : draw_list(scene, state, view, Which::all, back_faces);
         if (slices == 1) return;
         const glm::dvec2 range = visible_range(scene, state, aspect);
         borders = split_distances(range.x, range.y, settings_.cascades);

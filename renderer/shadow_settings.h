@@ -16,6 +16,10 @@ namespace stairstep {
 struct Skips {
     /// The lighting of surfaces that others hide: surfaces are stored first, then lit.
     bool hidden_surfaces = true;
+    /// Most of what nearer surfaces cover: they are drawn front to back.
+    bool overdraw = true;
+    /// Back faces of solids.
+    bool back_faces = true;
     /// Surfaces outside the view, and casters that can shade nothing visible.
     bool unseen_triangles = true;
     /// Maps of lights whose shadows nothing visible can receive.
@@ -37,9 +41,14 @@ struct SkipName {
 };
 
 inline constexpr SkipName kSkips[]{
-    {"hidden-surfaces", &Skips::hidden_surfaces},   {"unseen-triangles", &Skips::unseen_triangles},
-    {"unseen-shadows", &Skips::unseen_shadows},     {"unchanged-maps", &Skips::unchanged_maps},
-    {"unchanged-pixels", &Skips::unchanged_pixels}, {"even-texels", &Skips::even_texels},
+    {"hidden-surfaces", &Skips::hidden_surfaces},
+    {"overdraw", &Skips::overdraw},
+    {"back-faces", &Skips::back_faces},
+    {"unseen-triangles", &Skips::unseen_triangles},
+    {"unseen-shadows", &Skips::unseen_shadows},
+    {"unchanged-maps", &Skips::unchanged_maps},
+    {"unchanged-pixels", &Skips::unchanged_pixels},
+    {"even-texels", &Skips::even_texels},
 };
 
 /// "hidden-surfaces, unseen-triangles, …".

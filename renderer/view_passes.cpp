@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "embedded/shaders.h"
+#include "renderer/back_faces.h"
 
 namespace stairstep {
 namespace {
@@ -127,12 +128,15 @@ void set_lighting_uniforms(const gl::Program& program, const GpuScene& scene, co
     gl::set_uniform(program, "fade_range", glm::vec2(kFade * scene.diagonal));
 }
 
-/// A shader that knows how its map is made doesn't compute the others.
-std::string preamble(bool spot, bool warped, bool sliced) {
-    const auto constant = [](const char* name, bool value) {
-        return "const bool " + std::string(name) + (value ? " = true;\n" : " = false;\n");
-    };
-    return std::string(kVersion) + constant("spot", spot) + constant("warped", warped) + constant("sliced", sliced);
+/// A shader that knows what it is for doesn't compute the rest.
+std::string constant(const char* name, bool value) {
+    return "const bool " + std::string(name) + (value ? " = true;\n" : " = false;\n");
+}
+
+gl::Program make_surface_program(bool textured) {
+    return gl::make_program("surface", {embedded::surface_vert},
+                            {kVersion, constant("textured", textured), embedded::surface_glsl,
+                             embedded::surface_drawn_glsl, embedded::surface_frag});
 }
 
 /// Where what is drawn is lit, cleared to what shows nothing.
@@ -144,6 +148,15 @@ void clear(const gl::Framebuffer& framebuffer, const FrameTarget& target, bool n
     gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &kFarthestDepth);
 }
 
+/// Those whose material has a texture, or those without.
+DrawList with_texture(const GpuScene& scene, const DrawList& surfaces, bool textured) {
+    DrawList list{{}, surfaces.back_faces};
+    for (const DrawList::Item& item : surfaces.items) {
+        if (scene.draws[item.draw].material.texture.has_value() == textured) list.items.push_back(item);
+    }
+    return list;
+}
+
 void draw_surfaces(const gl::Program& program, const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
                    const FrameTarget& target) {
     gl::Viewport(0, 0, target.width, target.height);
@@ -153,15 +166,17 @@ void draw_surfaces(const gl::Program& program, const GpuScene& scene, const Scen
     gl::set_uniform(program, "clip_from_eye", clip_from_eye(state.camera, aspect_of(target)));
     gl::UseProgram(program.id());
     gl::BindVertexArray(scene.vertex_array.id());
+    const std::vector<glm::dvec3> starts = ray_starts(state.camera, aspect_of(target));
     for (const DrawList::Item& item : surfaces.items) {
         const GpuScene::Draw& draw = scene.draws[item.draw];
+        if (!surfaces.back_faces) set_faces(draw, state, starts);
         gl::set_uniform(program, "eye_from_model", eye_from_model(draw, state));
         gl::set_uniform(program, "base_colour", draw.material.base_colour);
-        gl::set_uniform(program, "textured", draw.material.texture ? 1 : 0);
         gl::set_uniform(program, "fading", draw.fades ? 1 : 0);
         if (draw.material.texture) gl::BindTextureUnit(1, scene.textures[*draw.material.texture].id());
         draw_runs(scene, item);
     }
+    set_both_faces();
     gl::DepthFunc(GL_LESS);
 }
 
@@ -174,10 +189,7 @@ void set_blending(const LightPart& part) {
 
 }  // namespace
 
-SurfacePass::SurfacePass()
-    : program_(
-          gl::make_program("surface", {embedded::surface_vert},
-                           {kVersion, embedded::surface_glsl, embedded::surface_drawn_glsl, embedded::surface_frag})) {}
+SurfacePass::SurfacePass() : programs_{make_surface_program(false), make_surface_program(true)} {}
 
 void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
                        const FrameTarget& target) const {
@@ -186,7 +198,9 @@ void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const Dra
     gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_COLOR, 0, &nothing.x);
     gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_DEPTH, 0, &kFarthestDepth);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.surface_framebuffer.id());
-    draw_surfaces(program_, scene, state, surfaces, target);
+    for (const bool textured : {false, true}) {
+        draw_surfaces(programs_[textured], scene, state, with_texture(scene, surfaces, textured), target);
+    }
 }
 
 LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertices_(gl::make_vertex_array()) {}
@@ -208,9 +222,11 @@ const gl::Program& LightingPass::program(Source source, const ShadowTechnique& t
     for (const std::string_view text : visibility) key.technique.push_back(text.data());
     gl::Program& program = programs_[key];
     if (program.id()) return program;
-    const bool drawn = source == Source::drawn;
+    const bool drawn = source != Source::stored;
     const bool colour = show == Show::colour;
-    const std::string first = preamble(mapping == Mapping::spot, mapping == Mapping::warped, key.sliced);
+    const std::string first = std::string(kVersion) + constant("spot", mapping == Mapping::spot) +
+                              constant("warped", mapping == Mapping::warped) + constant("sliced", key.sliced) +
+                              constant("textured", source == Source::drawn_textured);
     gl::ShaderParts parts{first, embedded::surface_glsl,
                           drawn ? embedded::surface_drawn_glsl : embedded::surface_stored_glsl, embedded::receiver_glsl,
                           embedded::slice_glsl};
@@ -252,11 +268,6 @@ void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, 
 void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
                             const ShadowTechnique& technique, const ShadowMap& map, const FrameTarget& target,
                             const LightPart& part) {
-    const gl::Program& program =
-        this->program(Source::drawn, technique, target.show, mapping_of(map.shape.frustum), part);
-    set_lighting_uniforms(program, scene, state, part);
-    set_receiver_uniforms(program, map, state, target.height);
-    if (part.visibility == LightPart::Visibility::computed) technique.bind(program, map);
     const gl::Framebuffer& framebuffer = target.samples > 1 ? target.multisample_framebuffer
                                          : part.need        ? target.need_framebuffer
                                                             : target.framebuffer;
@@ -266,7 +277,16 @@ void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, cons
     gl::Enable(GL_FRAMEBUFFER_SRGB);
     set_blending(part);
     gl::BindTextureUnit(0, map.memory.depth.id());
-    draw_surfaces(program, scene, state, surfaces, target);
+    for (const bool textured : {false, true}) {
+        const DrawList list = with_texture(scene, surfaces, textured);
+        if (list.items.empty()) continue;
+        const gl::Program& program = this->program(textured ? Source::drawn_textured : Source::drawn, technique,
+                                                   target.show, mapping_of(map.shape.frustum), part);
+        set_lighting_uniforms(program, scene, state, part);
+        set_receiver_uniforms(program, map, state, target.height);
+        if (part.visibility == LightPart::Visibility::computed) technique.bind(program, map);
+        draw_surfaces(program, scene, state, list, target);
+    }
     gl::Disable(GL_BLEND);
     if (target.samples > 1) {
         gl::BlitNamedFramebuffer(framebuffer.id(), target.framebuffer.id(), 0, 0, target.width, target.height, 0, 0,

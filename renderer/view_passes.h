@@ -5,6 +5,7 @@
 // pixels: no surface that another one hides is lit, and small triangles don't leave most of a block's lanes idle.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,7 +27,8 @@ class SurfacePass {
               const FrameTarget& target) const;
 
   private:
-    gl::Program program_;
+    /// Of materials without and with a texture: looking one up costs as much as all the rest.
+    std::array<gl::Program, 2> programs_;
 };
 
 /// One light's part of a picture.
@@ -61,7 +63,7 @@ class LightingPass {
                   const LightPart& part);
 
   private:
-    enum class Source { drawn, stored };
+    enum class Source { drawn, drawn_textured, stored };
     /// How places in the map follow from places in the world.
     enum class Mapping { directional, warped, spot };
     static Mapping mapping_of(const LightFrustum& frustum);

@@ -123,6 +123,46 @@ TEST(Clusters, RunsHoldEveryTriangleWithACornerWithin) {
     EXPECT_GT(left_out, 100'000u);
 }
 
+TEST(Clusters, InOrderAreTheSameAndReachFartherAndFarther) {
+    Random random(4);
+    for (int run = 0; run < 20; ++run) {
+        FacetMesh mesh = random_soup(random, 1 + random.below(4000));
+        const std::vector<Cluster> clusters = make_clusters(mesh);
+        const glm::dvec4 front(random_point(random, 1), 3);
+        const std::vector<glm::dvec4> planes(run % 2, glm::dvec4(random_point(random, 1), 2));
+        const OrderedRuns ordered = runs_from(front, clusters, planes);
+
+        const auto indices_in = [](const std::vector<IndexRun>& runs) {
+            std::vector<size_t> indices;
+            for (const IndexRun& one : runs) {
+                for (size_t i = 0; i < one.index_count; ++i) indices.push_back(one.first_index + i);
+            }
+            return indices;
+        };
+        const std::vector<size_t> in_order = indices_in(ordered.runs);
+        std::vector<size_t> sorted = in_order;
+        std::sort(sorted.begin(), sorted.end());
+        EXPECT_EQ(sorted, indices_in(runs_within(clusters, planes)));
+
+        // A cluster's own reach, by its eight corners.
+        const auto reach_of = [&](size_t index) {
+            const auto after = std::upper_bound(clusters.begin(), clusters.end(), index,
+                                                [](size_t i, const Cluster& one) { return i < one.first_index; });
+            double reach = -INFINITY;
+            for (int i = 0; i < 8; ++i) {
+                reach = std::max(reach, glm::dot(front, glm::dvec4(std::prev(after)->bounds.corner(i), 1)));
+            }
+            return reach;
+        };
+        double last = -INFINITY;
+        for (const size_t index : in_order) {
+            EXPECT_GE(reach_of(index), last - 1e-9);
+            last = reach_of(index);
+        }
+        EXPECT_NEAR(ordered.farthest, in_order.empty() ? -INFINITY : last, 1e-9);
+    }
+}
+
 // A sheet of n × n squares: a volume that holds a share of it needn't draw much more than that share.
 TEST(Clusters, LeaveOutWhatIsFarFromAVolume) {
     constexpr int kSquares = 128;
