@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 
+#include "analysis/law/grating_error.h"
 #include "analysis/law/law_file.h"
 #include "analysis/law/sizing.h"
 #include "renderer/commands/commands.h"
@@ -25,6 +26,9 @@ struct SizeOptions {
     double extent = 0;
     double smallest_texel = 0;
     int largest_size = 16384;
+    /// Of a grating, both or neither.
+    std::optional<double> gap;
+    std::optional<double> period;
     bool json = false;
 };
 
@@ -44,6 +48,17 @@ struct ImageOptions {
     bool json = false;
 };
 
+/// What the map makes of a grating, where one is asked about.
+nlohmann::ordered_json describe_grating(const SizeOptions& options, const Law& law, double texel) {
+    if (law.kernel != KernelShape::box) {
+        throw InputError("--gap", "is of a box, the law is of another filter", "use a law of the box, as kreuzer2017");
+    }
+    const Grating grating{*options.gap, *options.period};
+    return {{"gap_texels", grating.gap / texel},
+            {"period_texels", grating.period / texel},
+            {"visibility_rmse", grating_rmse(grating, texel, options.radius)}};
+}
+
 void print_size(const SizeOptions& options) {
     const Law law = law_named(options.law);
     const MapSize size =
@@ -56,14 +71,21 @@ void print_size(const SizeOptions& options) {
             "the law wants " + wanted + " texels a side, --largest-size allows " + std::to_string(options.largest_size),
             "use a larger --radius or --smallest-texel, or a smaller --extent");
     }
+    nlohmann::ordered_json json{{"texels", size.texels},
+                                {"limited_by", size.limit == SizeLimit::screen ? "screen" : "law"},
+                                {"slope", law.slope},
+                                {"kernel", name(law.kernel)}};
+    if (options.gap) json["grating"] = describe_grating(options, law, options.extent / size.texels);
     if (options.json) {
-        const nlohmann::ordered_json json{{"texels", size.texels},
-                                          {"limited_by", size.limit == SizeLimit::screen ? "screen" : "law"},
-                                          {"slope", law.slope},
-                                          {"kernel", name(law.kernel)}};
         std::cout << json.dump(2) << "\n";
-    } else {
-        std::cout << size.texels << "\n";
+        return;
+    }
+    std::cout << size.texels << "\n";
+    if (options.gap) {
+        const nlohmann::ordered_json& grating = json["grating"];
+        std::cout << "gaps of " << format_fixed(grating["gap_texels"], 2) << " texels every "
+                  << format_fixed(grating["period_texels"], 2) << ": visibility off by "
+                  << format_fixed(grating["visibility_rmse"], 3) << " root mean square\n";
     }
 }
 
@@ -137,6 +159,11 @@ void add_size_command(CLI::App& app, SizeOptions& options) {
     command->add_option("--smallest-texel", options.smallest_texel, "a pixel's footprint: finer texels are of no use")
         ->capture_default_str();
     command->add_option("--largest-size", options.largest_size, "texels a side that may be had")->capture_default_str();
+    CLI::Option* gap = command->add_option(
+        "--gap", options.gap, "width of the gaps of a fence or lattice: also prints how far off its shadow will be");
+    CLI::Option* period = command->add_option("--period", options.period, "from a gap to the next");
+    gap->needs(period);
+    period->needs(gap);
     command->add_flag("--json", options.json, "print JSON");
     command->callback([&options] { print_size(options); });
 }

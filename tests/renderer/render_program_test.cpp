@@ -49,6 +49,16 @@ TEST_F(RenderProgram, SizePrintsTheAnchor) {
     EXPECT_EQ(json["limited_by"], "law");
 }
 
+// Period and texel are one: gaps show or don't (analysis/law/grating_error.h).
+TEST_F(RenderProgram, SizeSaysWhatBecomesOfGaps) {
+    const std::string gaps = "size --radius 3.47 --extent 28 --gap 0.5 --period 1";
+    EXPECT_EQ(run(gaps).output, "28\ngaps of 0.50 texels every 1.00: visibility off by 0.500 root mean square\n");
+    const nlohmann::json json = nlohmann::json::parse(run(gaps + " --json").output);
+    EXPECT_NEAR(json["grating"]["visibility_rmse"], 0.5, 5e-4);
+    expect_error("size --radius 3.47 --extent 28 --gap 0.5", 2, "--period");
+    expect_error("size --radius 3.47 --extent 28 --gap 2 --period 1", 2, "gap");
+}
+
 TEST_F(RenderProgram, SizeRefusesNonsense) {
     for (const std::string radius : {"0", "-1", "nan", "inf", "soft", "\"\""}) {
         const CommandResult outcome = run("size --extent 28 --radius=" + radius);
