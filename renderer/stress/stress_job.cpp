@@ -1,5 +1,6 @@
 #include "renderer/stress/stress_job.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -28,6 +29,22 @@ std::vector<const TechniqueEntry*> entries_of(const StressJob& job) {
     return entries;
 }
 
+/// Leaves the conditions of these kinds; all where there are none.
+void keep_only(std::vector<Condition>& conditions, const std::vector<std::string>& kinds) {
+    if (kinds.empty()) return;
+    std::string there_are;
+    std::set<std::string> known;
+    for (const Condition& one : conditions) {
+        if (known.insert(one.what).second) there_are += (there_are.empty() ? "" : "; ") + one.what;
+    }
+    for (const std::string& kind : kinds) {
+        if (!known.contains(kind)) {
+            throw InputError("--only", "\"" + kind + "\" is no kind of condition here", "use some of: " + there_are);
+        }
+    }
+    std::erase_if(conditions, [&](const Condition& one) { return std::ranges::find(kinds, one.what) == kinds.end(); });
+}
+
 ordered_json value_or_null(const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
 }
@@ -46,6 +63,7 @@ ordered_json row_of(const Condition& condition, const Measurement& one) {
     row["detachment_texels"] = value_or_null(one.detachment_texels);
     row["drift"] = value_or_null(one.drift);
     row["growth_kib"] = value_or_null(one.growth_kib);
+    row["late_growth_kib"] = value_or_null(one.late_growth_kib);
     row["message"] = one.failure + one.refusal;
     return row;
 }
@@ -71,13 +89,14 @@ ConditionResult measured(const Condition& condition, const std::vector<const Tec
 
 ordered_json run_stress(const StressJob& job) {
     const std::vector<const TechniqueEntry*> entries = entries_of(job);
+    std::vector<Condition> conditions = all_conditions(job.quick, job.long_run);
+    if (!job.courses) std::erase_if(conditions, [](const Condition& c) { return c.course != Course::picture; });
+    keep_only(conditions, job.only);
     make_output_folder(job.out);
     for (const char* file : {"stress.csv", "index.html"}) OutputFile probe(job.out / file);
     const auto context = gl::make_context(job.context);
     const Setting setting{gl::renderer_name(), std::string(gl::name(job.context)), job.measurement.width,
                           job.measurement.height};
-    std::vector<Condition> conditions = all_conditions(job.quick, job.long_run);
-    if (!job.courses) std::erase_if(conditions, [](const Condition& c) { return c.course != Course::picture; });
     long steps = 0;
     for (const Condition& condition : conditions) steps += condition.steps * static_cast<long>(entries.size());
     std::vector<ConditionResult> results;
@@ -121,6 +140,7 @@ std::string summary_of(const ordered_json& result) {
         add("detachment_texels", "detachment", 2);
         add("drift", "drift", 4);
         add("growth_kib", "growth KiB", 0);
+        add("late_growth_kib", "late growth KiB", 0);
         if (row["nan_pixels"] != 0) text += "  NaN pixels " + std::to_string(row["nan_pixels"].get<size_t>());
         if (row["gl_errors"] != 0) text += "  GL errors " + std::to_string(row["gl_errors"].get<size_t>());
         text += "\n";
