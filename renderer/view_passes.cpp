@@ -101,6 +101,8 @@ void set_receiver_uniforms(const gl::Program& program, const ShadowMap& map, con
     gl::set_uniform(program, "cone", glm::vec2(std::cos(cone * (1 - kConeFade)), std::cos(cone)));
     const Misplacement misplaced = misplacement(map.shape, eye);
     gl::set_uniform(program, "misplaced", glm::vec2(misplaced.texels, misplaced.depth));
+    gl::set_uniform(program, "depth_step", static_cast<float>(depth_step(map.memory.format)));
+    gl::set_uniform(program, "depth_ends", glm::vec2(map.shape.frustum.nearest, map.shape.frustum.farthest));
     gl::set_uniform(program, "view_back", glm::vec3(state.camera.basis.back));
     gl::set_uniform(program, "pixel_area", static_cast<float>(pixel * pixel));
 }
@@ -128,11 +130,12 @@ void set_lighting_uniforms(const gl::Program& program, const GpuScene& scene, co
 }
 
 /// A shader that knows how its map is made doesn't compute the others.
-std::string preamble(bool spot, bool warped, bool sliced) {
+std::string preamble(bool spot, bool warped, bool linear_depth, bool sliced) {
     const auto constant = [](const char* name, bool value) {
         return "const bool " + std::string(name) + (value ? " = true;\n" : " = false;\n");
     };
-    return std::string(kVersion) + constant("spot", spot) + constant("warped", warped) + constant("sliced", sliced);
+    return std::string(kVersion) + constant("spot", spot) + constant("warped", warped) +
+           constant("linear_depth", linear_depth) + constant("sliced", sliced);
 }
 
 /// Where what is drawn is lit, cleared to what shows nothing.
@@ -193,7 +196,8 @@ LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertic
 
 LightingPass::Mapping LightingPass::mapping_of(const LightFrustum& frustum) {
     if (frustum.warp.warps()) return Mapping::warped;
-    return frustum.kind == Light::Kind::spot ? Mapping::spot : Mapping::directional;
+    if (frustum.kind == Light::Kind::directional) return Mapping::directional;
+    return frustum.encoding.spot == SpotDepth::linear ? Mapping::linear_spot : Mapping::spot;
 }
 
 const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping,
@@ -210,7 +214,8 @@ const gl::Program& LightingPass::program(Source source, const ShadowTechnique& t
     if (program.id()) return program;
     const bool drawn = source == Source::drawn;
     const bool colour = show == Show::colour;
-    const std::string first = preamble(mapping == Mapping::spot, mapping == Mapping::warped, key.sliced);
+    const std::string first = preamble(mapping == Mapping::spot || mapping == Mapping::linear_spot,
+                                       mapping == Mapping::warped, mapping == Mapping::linear_spot, key.sliced);
     gl::ShaderParts parts{first, embedded::surface_glsl,
                           drawn ? embedded::surface_drawn_glsl : embedded::surface_stored_glsl, embedded::receiver_glsl,
                           embedded::slice_glsl};

@@ -62,8 +62,8 @@ class LightingPass {
 
   private:
     enum class Source { drawn, stored };
-    /// How places in the map follow from places in the world.
-    enum class Mapping { directional, warped, spot };
+    /// How places and depths in the map follow from places in the world.
+    enum class Mapping { directional, warped, spot, linear_spot };
     static Mapping mapping_of(const LightFrustum& frustum);
 
     struct Key {

@@ -44,7 +44,7 @@ void add_stress_command(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
         "stress", "Puts shadow techniques under extreme conditions: error, NaN, GL errors, acne, detachment.");
-    command->add_option("--out", options->out, "folder for stress.csv and index.html")->required();
+    command->add_option("--out", options->out, "folder for stress.csv, stress.md and index.html")->required();
     command->add_option("--techniques", options->techniques, "at the law's sizes")->capture_default_str();
     command->add_flag("--quick", options->quick, "fewer conditions, short courses, smaller pictures");
     command->add_flag("--long", options->long_run, "animate for 100,000 frames, not 2,000");

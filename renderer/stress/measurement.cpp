@@ -36,6 +36,14 @@ size_t strange_pixels(const std::vector<float>& values) {
     return static_cast<size_t>(std::ranges::count_if(values, [](float value) { return !is_visibility(value); }));
 }
 
+/// A condition's radius as ShadowSettings', which is one at the middle of all casters: of a spot, casters that the truth doesn't know
+/// of move that.
+double radius_at_casters(const Condition& condition, const Scene& scene) {
+    if (condition.stage.light.kind == Light::Kind::directional || condition.extra.empty()) return condition.radius;
+    return light_plane_radius(condition) *
+           std::max(depth_along(condition.stage.light, caster_bounds(scene).centre()), 1e-9);
+}
+
 /// A condition's scene and what draws it, for a picture of one size.
 class Drawing {
   public:
@@ -69,8 +77,9 @@ class Drawing {
 
     static ShadowSettings settings_of(const Condition& condition, const MeasurementSettings& settings) {
         ShadowSettings shadow;
-        shadow.radius = condition.radius * condition.placement.scale;
+        shadow.radius = radius_at_casters(condition, all_meshes(condition)) * condition.placement.scale;
         shadow.fixed_size = condition.fixed_size;
+        shadow.depth = condition.depth;
         shadow.largest_size = settings.largest_size;
         return shadow;
     }

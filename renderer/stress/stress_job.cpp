@@ -5,6 +5,7 @@
 #include <set>
 
 #include "renderer/stress/stress_page.h"
+#include "renderer/stress/stress_table.h"
 #include "renderer/techniques/techniques.h"
 #include "stimuli/error.h"
 #include "stimuli/io/output_file.h"
@@ -93,7 +94,7 @@ ordered_json run_stress(const StressJob& job) {
     if (!job.courses) std::erase_if(conditions, [](const Condition& c) { return c.course != Course::picture; });
     keep_only(conditions, job.only);
     make_output_folder(job.out);
-    for (const char* file : {"stress.csv", "index.html"}) OutputFile probe(job.out / file);
+    for (const char* file : {"stress.csv", "stress.md", "index.html"}) OutputFile probe(job.out / file);
     const auto context = gl::make_context(job.context);
     const Setting setting{gl::renderer_name(), std::string(gl::name(job.context)), job.measurement.width,
                           job.measurement.height};
@@ -107,6 +108,7 @@ ordered_json run_stress(const StressJob& job) {
         }
     }
     write_file(job.out / "stress.csv", stress_csv(results, setting));
+    write_file(job.out / "stress.md", stress_table(results));
     write_file(job.out / "index.html", stress_page(results, setting));
 
     ordered_json json{{"program", "stairstep-render " STAIRSTEP_VERSION},

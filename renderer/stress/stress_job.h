@@ -26,7 +26,7 @@ struct StressJob {
     std::filesystem::path out;
 };
 
-/// Does the job: stress.csv and index.html, each there whole or not at all. What can't be read or written is found out before
+/// Does the job: stress.csv, stress.md and index.html, each there whole or not at all. What can't be read or written is found out before
 /// anything is drawn. Throws InputError and FailureError. Returns what `--json` prints:
 ///
 ///   program, renderer, context, out, broken (rows with NaN, errors of GL or failures)
