@@ -1,5 +1,7 @@
 #include "renderer/stress/stress_table.h"
 
+#include <algorithm>
+
 #include "stimuli/number.h"
 
 namespace stairstep::stress {
@@ -25,6 +27,12 @@ std::string cell(const Condition& condition, const Measurement& one) {
     return text;
 }
 
+/// A row of the table: values of one kind of condition that have the same cells.
+struct Row {
+    std::string values;
+    std::string cells;
+};
+
 }  // namespace
 
 std::string stress_table(const std::vector<ConditionResult>& results) {
@@ -36,10 +44,22 @@ std::string stress_table(const std::vector<ConditionResult>& results) {
         rule += "---|";
     }
     text += "\n" + rule + "\n";
-    for (const ConditionResult& result : results) {
-        text += "| " + result.condition.what + ": " + result.condition.value + " |";
-        for (const Measurement& one : result.measurements) text += " " + cell(result.condition, one) + " |";
-        text += "\n";
+
+    std::vector<std::pair<std::string, std::vector<Row>>> kinds;
+    for (const auto& [condition, measurements] : results) {
+        auto kind = std::ranges::find(kinds, condition.what, &std::pair<std::string, std::vector<Row>>::first);
+        if (kind == kinds.end()) kind = kinds.insert(kinds.end(), {condition.what, {}});
+        std::string cells;
+        for (const Measurement& one : measurements) cells += " " + cell(condition, one) + " |";
+        const auto same = std::ranges::find(kind->second, cells, &Row::cells);
+        if (same != kind->second.end()) {
+            same->values += "; " + condition.value;
+        } else {
+            kind->second.push_back({condition.value, cells});
+        }
+    }
+    for (const auto& [what, rows] : kinds) {
+        for (const Row& row : rows) text += "| " + what + ": " + row.values + " |" + row.cells + "\n";
     }
     return text;
 }
