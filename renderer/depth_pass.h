@@ -17,10 +17,12 @@ class DepthPass {
 
     /// Draws casters into the map.
     void draw(const GpuScene& scene, const SceneState& state, const DrawList& casters, const DepthMap& memory,
-              const ShadowMapShape& shape) const;
+              const ShadowMapShape& shape);
 
   private:
     gl::Program program_;
+    /// For a spot's linear depths; made when it is first needed.
+    gl::Program linear_program_;
 };
 
 }  // namespace stairstep

@@ -131,6 +131,7 @@ Truth draw_truth(const ImageJob& job, const ShadowSettings& settings, const Subj
     converged.technique.filter_taps = kTruthTaps;
     converged.fixed_size = kTruthSize;
     converged.warp = Warp::none;
+    converged.depth = {};
     converged.cascades = {};
     ShadowRenderer reference(technique_named("pcf"), converged, subject.scene, subject.state,
                              static_cast<double>(job.width) / job.height);
@@ -232,6 +233,7 @@ ordered_json run_image_job(const ImageJob& job) {
     settings.largest_size = job.largest_size;
     settings.fit = job.fit;
     settings.warp = job.warp;
+    settings.depth = job.depth;
     settings.cascades = job.cascades;
     settings.skips = job.skips;
     std::vector<Rendering> renderings;
@@ -253,6 +255,8 @@ ordered_json run_image_job(const ImageJob& job) {
     stats["triangles"] = staged.triangles;
     stats["technique"] = job.technique;
     stats["warp"] = job.warp == Warp::lispsm ? "lispsm" : "none";
+    stats["depth_bits"] = bits_of(job.depth.format);
+    stats["spot_depth"] = name(job.depth.spot);
     stats["law"] = {{"file", job.law},
                     {"kernel", name(law.kernel)},
                     {"slope", law.slope},

@@ -37,6 +37,7 @@ struct ImageJob {
     Fit fit = Fit::axis_aligned;
     /// Of a directional light's map; then the axes are the warp's.
     Warp warp = Warp::none;
+    DepthEncoding depth;
     Cascades cascades;
     /// What frames leave out. What didn't change since the last frame isn't among it: all are timed as if something had moved.
     Skips skips = skips_without(kDrawsUnchanged);
@@ -74,6 +75,7 @@ struct ImageJob {
 ///   radius, radius_px_on_screen
 ///   light_extent               what the map must span along its two axes
 ///   warp                       lispsm or none
+///   depth_bits, spot_depth     how maps store depth (depth_encoding.h)
 ///   law                        file, kernel, slope, slope_for_box, kernel_converted, texel_range_px
 ///   truth                      with `truth` only: file, kind and, for a converged filter, its map's width and height and its
 ///                              taps, or, for pcss, the samples of the area light that rays were traced to (the picture is

@@ -156,6 +156,8 @@ void set_depths(LightFrustum& frustum, const Bounds& casters, double clearance) 
         // All casters behind the light: any depth will do.
         frustum.farthest = std::max(frustum.farthest, clearance);
         frustum.nearest = std::max(frustum.nearest, frustum.farthest * 1e-3);
+        const double last = std::max(casters.high.z, frustum.nearest);
+        frustum.farthest = std::max(frustum.farthest, least_farthest(frustum.encoding, frustum.nearest, last));
     }
 }
 
@@ -211,11 +213,12 @@ glm::dvec3 light_plane_point(const LightFrustum& frustum, const glm::dvec3& worl
 }
 
 LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& state, double aspect, Fit fit,
-                               const Reach& reach, Warp warp) {
+                               const Reach& reach, Warp warp, const DepthEncoding& encoding) {
     const Light& light = state.light;
     const bool spot = light.kind == Light::Kind::spot;
     LightFrustum frustum;
     frustum.kind = light.kind;
+    frustum.encoding = encoding;
     frustum.basis = light.basis;
     if (spot) frustum.position = light.position;
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 
+#include "renderer/depth_encoding.h"
 #include "renderer/light_warp.h"
 #include "renderer/scene_extents.h"
 
@@ -26,6 +27,8 @@ struct LightFrustum {
     /// is above 0.
     double nearest = 0;
     double farthest = 1;
+    /// How depths are stored.
+    DepthEncoding encoding{};
     /// Half-width of a penumbra's filter in the light plane for each unit between the stored depths of receiver and
     /// caster: stored depth is linear in depth for a directional light and in its reciprocal for a spot, and so is the
     /// half-width (light.h), so their quotient is a constant.
@@ -63,9 +66,10 @@ using Reach = std::function<double(const LightFrustum&)>;
 /// casters; receivers may lie beyond its far end: their depth is clamped to it, which leaves every comparison as it was,
 /// so they cost the depth no precision. Casters nearer to a spot than 1/1000 of its farthest are clamped likewise.
 /// `aspect` is the picture's width over its height. A warp chooses the axes, whatever `fit` is, and fits the map to what is seen
-/// of a perspective view; a spot's map keeps none, being in perspective already, nor has one whose light shines along the view.
+/// of a perspective view; a spot's map keeps none, being in perspective already, nor has one whose light shines along the view. The far end is where `encoding` can tell
+/// the last caster from it.
 LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& state, double aspect, Fit fit,
-                               const Reach& reach, Warp warp = Warp::none);
+                               const Reach& reach, Warp warp = Warp::none, const DepthEncoding& encoding = {});
 
 /// In the light plane, then the depth along the light.
 glm::dvec3 light_plane_point(const LightFrustum& frustum, const glm::dvec3& world);

@@ -29,11 +29,13 @@ LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& sett
                          const SceneState& first, double aspect, const glm::dvec3& middle)
     : settings_(settings),
       middle_(middle),
-      map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)))) {
+      map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)),
+                              settings.depth.format)) {
     // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
     map_.filter_radius = light_plane_radius(settings.radius, first.light, middle_);
     const LightFrustum frustum = fit_light_frustum(
-        scene.extents, first, aspect, settings.fit, [&](auto&) { return map_.filter_radius; }, settings.warp);
+        scene.extents, first, aspect, settings.fit, [&](auto&) { return map_.filter_radius; }, settings.warp,
+        settings.depth);
     map_.shape =
         settings.fixed_size
             ? map_of_size(frustum, *settings.fixed_size)
@@ -43,6 +45,12 @@ LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& sett
         throw InputError("--warp lispsm", std::string(entry.name) + " filters texels that are all of one size",
                          "use hard or pcf, or --warp none");
     }
+    if (settings.depth.spot == SpotDepth::linear && technique_->reads_map() && !technique_->takes_linear_depth()) {
+        throw InputError(
+            "--spot-depth linear",
+            std::string(entry.name) + " compares depths over a filter by a plane, which only the reciprocal keeps",
+            "use hard or pcf, or --spot-depth reciprocal");
+    }
     if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
 }
 
@@ -50,7 +58,8 @@ ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& stat
     const double filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
     const LightFrustum frustum = fit_light_frustum(
         scene.extents, state, aspect, settings_.fit,
-        [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); }, settings_.warp);
+        [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); }, settings_.warp,
+        settings_.depth);
     if (settings_.fixed_size) return map_of_size(frustum, *settings_.fixed_size);
     const int largest = settings_.largest_size;
     if (meter_) {
@@ -74,7 +83,9 @@ ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& stat
 void LightShadow::update_map(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
                              gl::PassTimer& timer, FrameTime& time) {
     const int side = std::max(shape.width, shape.height);
-    if (side > map_.capacity) map_ = reserve_shadow_map(capacity_for(side, std::max(side, settings_.largest_size)));
+    if (side > map_.capacity) {
+        map_ = reserve_shadow_map(capacity_for(side, std::max(side, settings_.largest_size)), settings_.depth.format);
+    }
     map_.shape = shape;
     map_.filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
     const Skips& skips = settings_.skips;

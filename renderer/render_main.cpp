@@ -40,6 +40,8 @@ struct ImageOptions {
     std::string context = "osmesa";
     std::string fit = "axes";
     std::string warp = "none";
+    int depth_bits = 32;
+    std::string spot_depth = "reciprocal";
     std::string splits = "practical";
     std::string no_skip = kDrawsUnchanged;
     std::string camera;
@@ -132,6 +134,7 @@ ImageJob job_of(const ImageOptions& options) {
     job.fit = options.fit == "smallest" ? Fit::smallest_rectangle : Fit::axis_aligned;
     job.cascades.splits = splits_named(options.splits);
     job.skips = skips_without(options.no_skip);
+    job.depth = {depth_format_of_bits(options.depth_bits), spot_depth_named(options.spot_depth)};
     job.warp = options.warp == "lispsm" ? Warp::lispsm : Warp::none;
     if (job.light_half_tangent && !(*job.light_half_tangent >= 0 && *job.light_half_tangent <= 1)) {
         throw InputError("--light-size " + format_number(*job.light_half_tangent), "must be from 0 to 1",
@@ -226,6 +229,12 @@ void add_image_command(CLI::App& app, ImageOptions& options) {
         ->add_option("--warp", options.warp,
                      "lispsm makes texels smaller near the camera (hard and pcf under a directional light)")
         ->check(CLI::IsMember({"none", "lispsm"}))
+        ->capture_default_str();
+    command->add_option("--depth-bits", options.depth_bits, "of the map: 16, 24 or 32 (a float)")
+        ->capture_default_str();
+    command
+        ->add_option("--spot-depth", options.spot_depth,
+                     "what a spot's map is linear in: the depth's reciprocal, or linear (hard and pcf)")
         ->capture_default_str();
     command->add_option("--context", options.context, "osmesa (no display), egl (no display, GPU) or window")
         ->capture_default_str();

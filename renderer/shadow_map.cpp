@@ -5,19 +5,32 @@
 
 namespace stairstep {
 
-DepthMap make_depth_map(int width, int height) {
-    gl::Texture depth = gl::make_texture(GL_DEPTH_COMPONENT32F, width, height);
+namespace {
+
+GLenum gl_format(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::unorm16: return GL_DEPTH_COMPONENT16;
+        case DepthFormat::unorm24: return GL_DEPTH_COMPONENT24;
+        case DepthFormat::float32: return GL_DEPTH_COMPONENT32F;
+    }
+    return GL_DEPTH_COMPONENT32F;
+}
+
+}  // namespace
+
+DepthMap make_depth_map(int width, int height, DepthFormat format) {
+    gl::Texture depth = gl::make_texture(gl_format(format), width, height);
     gl::TextureParameteri(depth.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl::TextureParameteri(depth.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl::Framebuffer framebuffer = gl::make_framebuffer(0, depth.id());
-    return {std::move(depth), std::move(framebuffer)};
+    return {std::move(depth), std::move(framebuffer), format};
 }
 
-ShadowMap reserve_shadow_map(int capacity) {
+ShadowMap reserve_shadow_map(int capacity, DepthFormat format) {
     const int side = capacity + 2 * kGuardTexels;
-    return {capacity, make_depth_map(side, side), {}, 0};
+    return {capacity, make_depth_map(side, side, format), {}, 0};
 }
 
 int capacity_for(int side, int largest) {

@@ -2,19 +2,21 @@
 // centre.
 #pragma once
 
+#include "renderer/depth_encoding.h"
 #include "renderer/gl/objects.h"
 #include "renderer/shadow_map_shape.h"
 
 namespace stairstep {
 
-/// A depth texture that can be drawn into: 32-bit float, unfiltered, and comparing nothing.
+/// A depth texture that can be drawn into: unfiltered, and comparing nothing.
 struct DepthMap {
     gl::Texture depth;
     gl::Framebuffer framebuffer;
+    DepthFormat format = DepthFormat::float32;
 };
 
 /// Throws FailureError where the driver can't make one of this size.
-DepthMap make_depth_map(int width, int height);
+DepthMap make_depth_map(int width, int height, DepthFormat format = DepthFormat::float32);
 
 /// Empty texels on each side of a map's own in its texture, so that a filter that leaves the map reads light without a
 /// test. shaders/receiver.glsl has the same number.
@@ -35,7 +37,7 @@ struct ShadowMap {
 };
 
 /// An empty map. Throws FailureError as make_depth_map.
-ShadowMap reserve_shadow_map(int capacity);
+ShadowMap reserve_shadow_map(int capacity, DepthFormat format = DepthFormat::float32);
 
 /// The capacity for maps of this many texels a side: a power of two, or `largest` where that is less. Memory that grows by
 /// doubling is reserved a few times in a program's life; the largest from the start would cost each frame, as what is drawn

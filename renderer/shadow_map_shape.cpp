@@ -82,7 +82,7 @@ bool ShadowMapShape::texels_equal(const ShadowMapShape& other) const {
     const LightFrustum& b = other.frustum;
     return width == other.width && height == other.height && a.kind == b.kind && a.position == b.position &&
            a.basis.right == b.basis.right && a.basis.up == b.basis.up && a.basis.back == b.basis.back &&
-           a.low == b.low && a.high == b.high && a.nearest == b.nearest && a.farthest == b.farthest && a.warp == b.warp;
+           a.low == b.low && a.high == b.high && a.nearest == b.nearest && a.farthest == b.farthest && a.encoding == b.encoding && a.warp == b.warp;
 }
 
 glm::dmat4 texel_from_world(const ShadowMapShape& shape) {

@@ -2,7 +2,7 @@
 //
 // Texel space: x and y in texels of the map, texel (i, j) covering [i, i + 1) × [j, j + 1), and depth scaled to [0, 1]:
 // linear in depth along a directional light, in its reciprocal for a spot, and divided by w of a warp (light_warp.h), so that
-// planes stay planes.
+// planes stay planes. A spot's map may store linear depths (depth_encoding.h); that is up to who draws and who compares.
 #pragma once
 
 #include <string_view>

@@ -6,6 +6,7 @@
 
 #include "analysis/law/texel_choice.h"
 #include "renderer/cascades.h"
+#include "renderer/depth_encoding.h"
 #include "renderer/light_frustum.h"
 #include "renderer/need_meter.h"
 #include "renderer/techniques/technique.h"
@@ -72,6 +73,8 @@ struct ShadowSettings {
     Fit fit = Fit::axis_aligned;
     /// Of a directional light's map.
     Warp warp = Warp::none;
+    /// How maps store depth; linear for spots is for hard and pcf, whose comparisons are texel by texel.
+    DepthEncoding depth;
     /// For techniques whose radius differs from pixel to pixel.
     NeedStatistic statistic;
     TexelPatience patience;

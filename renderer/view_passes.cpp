@@ -102,6 +102,8 @@ void set_receiver_uniforms(const gl::Program& program, const ShadowMap& map, con
     gl::set_uniform(program, "cone", glm::vec2(std::cos(cone * (1 - kConeFade)), std::cos(cone)));
     const Misplacement misplaced = misplacement(map.shape, eye);
     gl::set_uniform(program, "misplaced", glm::vec2(misplaced.texels, misplaced.depth));
+    gl::set_uniform(program, "depth_step", static_cast<float>(depth_step(map.memory.format)));
+    gl::set_uniform(program, "depth_ends", glm::vec2(map.shape.frustum.nearest, map.shape.frustum.farthest));
     gl::set_uniform(program, "view_back", glm::vec3(state.camera.basis.back));
     gl::set_uniform(program, "pixel_area", static_cast<float>(pixel * pixel));
 }
@@ -207,7 +209,8 @@ LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertic
 
 LightingPass::Mapping LightingPass::mapping_of(const LightFrustum& frustum) {
     if (frustum.warp.warps()) return Mapping::warped;
-    return frustum.kind == Light::Kind::spot ? Mapping::spot : Mapping::directional;
+    if (frustum.kind == Light::Kind::directional) return Mapping::directional;
+    return frustum.encoding.spot == SpotDepth::linear ? Mapping::linear_spot : Mapping::spot;
 }
 
 const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping,
@@ -224,9 +227,11 @@ const gl::Program& LightingPass::program(Source source, const ShadowTechnique& t
     if (program.id()) return program;
     const bool drawn = source != Source::stored;
     const bool colour = show == Show::colour;
-    const std::string first = std::string(kVersion) + constant("spot", mapping == Mapping::spot) +
-                              constant("warped", mapping == Mapping::warped) + constant("sliced", key.sliced) +
-                              constant("textured", source == Source::drawn_textured);
+    const bool spot = mapping == Mapping::spot || mapping == Mapping::linear_spot;
+    const std::string first = std::string(kVersion) + constant("spot", spot) +
+                              constant("warped", mapping == Mapping::warped) +
+                              constant("linear_depth", mapping == Mapping::linear_spot) +
+                              constant("sliced", key.sliced) + constant("textured", source == Source::drawn_textured);
     gl::ShaderParts parts{first, embedded::surface_glsl,
                           drawn ? embedded::surface_drawn_glsl : embedded::surface_stored_glsl, embedded::receiver_glsl,
                           embedded::slice_glsl};

@@ -64,8 +64,8 @@ class LightingPass {
 
   private:
     enum class Source { drawn, drawn_textured, stored };
-    /// How places in the map follow from places in the world.
-    enum class Mapping { directional, warped, spot };
+    /// How places and depths in the map follow from places in the world.
+    enum class Mapping { directional, warped, spot, linear_spot };
     static Mapping mapping_of(const LightFrustum& frustum);
 
     struct Key {

@@ -31,7 +31,7 @@ Prefiltered prefiltered_around(Receiver receiver) {
     // Beyond the texture all is empty, whose coarsest level blends into it over its own width.
     vec4 mean = textureLod(prefiltered, clamp(place, vec2(-2), vec2(3)), log2(pixel));
     vec2 texel = prefiltered_factor * pixel;
-    float tolerance = receiver.tolerance * max(texel.x, texel.y);
+    float tolerance = (receiver.tolerance - depth_step) * max(texel.x, texel.y) + depth_step;
     // A surface that fills the filter has its mean at the receiver's own height. Of one that ends within, a share is there,
     // the upper at worst: its mean is above by the rest's share of how far the plane rises to the filter's rim.
     float rise = dot(abs(receiver.slope), prefiltered_radius + texel);

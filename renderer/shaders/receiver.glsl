@@ -2,9 +2,11 @@
 //
 //     float visibility(Receiver receiver);      1 lit, 0 in shadow
 //
-// Ahead of it go the version and what is known when the shader is compiled: `const bool spot`, whether the light is a spot, and
-// `const bool warped`, whether the map is one of light_warp.h. Texel space
-// is shadow_map_shape.h's: x and y in texels of the shadow map, depth in [0, 1]. Eye space has the world's axes around the
+// Ahead of it go the version and what is known when the shader is compiled: `const bool spot`, whether the light is a spot,
+// `const bool warped`, whether the map is one of light_warp.h, and `const bool linear_depth`, whether it is a spot's that stores
+// linear depths (depth_encoding.h). Texel space is shadow_map_shape.h's: x and y in texels of the shadow map, depth in [0, 1]. Where
+// depths are linear planes aren't: a receiver's depth is then −far/z, of which planes are, and lit() compares what that is when
+// stored. Eye space has the world's axes around the
 // camera's eye: small numbers keep their precision, wherever the world's origin is.
 
 struct Receiver {
@@ -47,6 +49,11 @@ uniform vec2 cone;
 // How far a caster's plane, or a receiver's place, may be from where it is: in texels (vertices snap to 2^-GL_SUBPIXEL_BITS of
 // one, and floats are rounded), and in stored depth (of a spot at depth 1, falling with the depth's square).
 uniform vec2 misplaced;
+// Most that a stored depth differs from what was to be stored (depth_encoding.h), and of a spot the map's ends along the light.
+uniform float depth_step;
+uniform vec2 depth_ends;
+// Units in the last place that rounding costs a depth, drawn and asked for.
+const float kRounding = 16 * 1.2e-7;
 
 // Side of a texel in the light plane.
 uniform vec2 texel_side;
@@ -70,13 +77,20 @@ Receiver receiver_at(vec3 from_eye, vec3 normal, vec3 to_light) {
     vec3 plane = mat3(texel_plane_from_eye) * normal;
     if (spot || warped) plane -= dot(normal, from_eye) * texel_plane_from_eye[3].xyz;
     vec2 slope = -plane.xy / plane.z;
-    // The depth stored for a texel is that of the caster's plane, up to where its vertices were moved, and rounding: some units
-    // in the last place of the depth.
+    // The depth stored for a texel is that of the caster's plane, up to where its vertices were moved, rounding, and the step of
+    // what depths are stored as.
     float steepness = abs(slope.x) + abs(slope.y);
     float depth_error = spot ? misplaced.y / (point.w * point.w) : misplaced.y;
     float nearness = warped ? 1 / max(point.w, 1) : 1;
-    return Receiver(texel.xy, texel.z, slope, steepness * misplaced.x + depth_error + 16 * 1.2e-7,
-                    vec2(nearness, nearness * nearness));
+    float depth = texel.z;
+    float tolerance = steepness * misplaced.x + depth_error + kRounding + depth_step;
+    if (linear_depth) {
+        depth = -depth_ends.y / point.w;
+        float change = (depth_ends.y - depth_ends.x) / depth_ends.x;
+        slope *= change;
+        tolerance = (steepness * misplaced.x + depth_error) * change - depth * kRounding;
+    }
+    return Receiver(texel.xy, depth, slope, tolerance, vec2(nearness, nearness * nearness));
 }
 
 // `covered` at a surface point: its pixel's area on the surface is pixel_area·z³/|n·p|, z being p's depth along the view. Across a
@@ -109,7 +123,11 @@ vec4 plane_depth(Receiver receiver, vec4 x, vec4 y) {
 
 // Which depths read from the map leave these lit. Depths beyond the map's far end count as its end, where empty texels
 // are: behind any caster, and lit where there is none.
-vec4 lit(vec4 depth, vec4 stored) { return step(min(depth, 1), stored); }
+vec4 lit(vec4 depth, vec4 stored) {
+    if (!linear_depth) return step(min(depth, 1), stored);
+    vec4 along = -depth_ends.y / min(depth, -1);
+    return step((along - depth_ends.x) / (depth_ends.y - depth_ends.x) - depth_step, stored);
+}
 
 // The depth stored at a texel; 1, as in all empty texels, beyond the map.
 float stored_at(vec2 texel) {

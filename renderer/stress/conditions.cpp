@@ -156,6 +156,55 @@ void add_triangles(List& list) {
     list.add(made, false);
 }
 
+/// A triangle that stretches the depths of a map, and nothing else: where no shadow of it is seen.
+Mesh far_caster(const glm::dvec3& at) {
+    const glm::vec3 corner(at);
+    return triangles({corner, corner + glm::vec3(0.1f, 0, 0), corner + glm::vec3(0, 0.1f, 0.1f)});
+}
+
+/// With a thin wall instead of the box: the nearest to the light is next to its contact, too, and a gap there is what depths can't
+/// tell apart. A box's top is far above its foot.
+Stage with_wall(Stage stage) {
+    Bounds& wall = stage.boxes.front();
+    wall.low.z = -0.01;
+    wall.high.z = 0.01;
+    return stage;
+}
+
+void add_depths(List& list) {
+    constexpr DepthFormat kFormats[]{DepthFormat::unorm16, DepthFormat::unorm24, DepthFormat::float32};
+    const auto bits = [](DepthFormat format) { return std::to_string(bits_of(format)) + " bits"; };
+    for (const auto& [range, reach] : {std::pair("", 0.0), {", casters over 1e2", 1e2}, {", casters over 1e4", 1e4}}) {
+        for (const DepthFormat format : kFormats) {
+            Condition made = condition("depth, directional", bits(format) + range);
+            made.stage = with_wall(plain_stage());
+            made.depth.format = format;
+            // Towards the light, and aside by more than the ground is wide.
+            const Basis& light = made.stage.light.basis;
+            if (reach > 0) made.extra = {far_caster(reach * light.back + 60.0 * light.right)};
+            list.add(made, format == DepthFormat::unorm16 && reach < 1e4);
+        }
+    }
+    struct Range {
+        const char* value;
+        /// Of a caster, along the light; 0 for none.
+        double depth;
+    };
+    for (const Range& range : {Range{"", 0}, Range{", a caster behind it", -1}, Range{", a caster 1e3 away", 1e3}}) {
+        for (const SpotDepth spot : {SpotDepth::reciprocal, SpotDepth::linear}) {
+            for (const DepthFormat format : kFormats) {
+                Condition made =
+                    condition("depth, spot", std::string(name(spot)) + ", " + bits(format) + std::string(range.value));
+                made.stage = with_wall(spot_stage());
+                made.depth = {format, spot};
+                const Light& light = made.stage.light;
+                if (range.depth != 0) made.extra = {far_caster(light.position - range.depth * light.basis.back)};
+                list.add(made, format == DepthFormat::unorm16 && spot == SpotDepth::reciprocal && range.depth < 1e3);
+            }
+        }
+    }
+}
+
 void add_courses(List& list, bool quick, bool long_run) {
     Condition made = condition("changes of size", quick ? "200" : "10000");
     made.course = Course::sizes;
@@ -176,6 +225,7 @@ std::vector<Condition> all_conditions(bool quick, bool long_run) {
     add_lights(list);
     add_filters(list);
     add_triangles(list);
+    add_depths(list);
     add_courses(list, quick, long_run);
     return std::move(list.conditions);
 }

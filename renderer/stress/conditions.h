@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/depth_encoding.h"
 #include "renderer/stress/stage.h"
 
 namespace stairstep::stress {
@@ -29,6 +30,7 @@ struct Condition {
     double radius = 0.08;
     /// As ShadowSettings'.
     std::optional<int> fixed_size;
+    DepthEncoding depth;
     /// Drawn besides the stage, in its mover's space; none of them throws a shadow into the picture.
     std::vector<Mesh> extra;
     Course course = Course::picture;

@@ -36,6 +36,14 @@ size_t strange_pixels(const std::vector<float>& values) {
     return static_cast<size_t>(std::ranges::count_if(values, [](float value) { return !is_visibility(value); }));
 }
 
+/// A condition's radius as ShadowSettings', which is one at the middle of all casters: of a spot, casters that the truth doesn't know
+/// of move that.
+double radius_at_casters(const Condition& condition, const Scene& scene) {
+    if (condition.stage.light.kind == Light::Kind::directional || condition.extra.empty()) return condition.radius;
+    return light_plane_radius(condition) *
+           std::max(depth_along(condition.stage.light, caster_bounds(scene).centre()), 1e-9);
+}
+
 /// A condition's scene and what draws it, for a picture of one size.
 class Drawing {
   public:
@@ -69,8 +77,9 @@ class Drawing {
 
     static ShadowSettings settings_of(const Condition& condition, const MeasurementSettings& settings) {
         ShadowSettings shadow;
-        shadow.radius = condition.radius * condition.placement.scale;
+        shadow.radius = radius_at_casters(condition, all_meshes(condition)) * condition.placement.scale;
         shadow.fixed_size = condition.fixed_size;
+        shadow.depth = condition.depth;
         shadow.largest_size = settings.largest_size;
         return shadow;
     }
@@ -201,7 +210,7 @@ double difference(const std::vector<float>& a, const std::vector<float>& b) {
     return largest;
 }
 
-/// Draws a course; the step before the last has the state of the first one after the settling.
+/// Draws a course of whole periods; each begins with the state of the first one after the settling.
 void measure_course(Measurement& one, const Condition& condition, const TechniqueEntry& entry,
                     const MeasurementSettings& settings) {
     MeasurementSettings small = settings;
@@ -213,6 +222,7 @@ void measure_course(Measurement& one, const Condition& condition, const Techniqu
     Random random(kSizesSeed);
     std::vector<float> reference;
     std::optional<double> before;
+    std::optional<double> halfway;
     const auto draw = [&](int step) {
         if (condition.course == Course::frames) return drawing.draw(swung(condition.stage, step));
         // Each period begins with the same size; the largest comes first, so that memory is reserved early.
@@ -223,15 +233,18 @@ void measure_course(Measurement& one, const Condition& condition, const Techniqu
     for (int step = 0; step <= last; ++step) {
         const std::vector<float> values = draw(step);
         one.nan_pixels += strange_pixels(values);
+        if (step % kPeriod != 0 || step < kSettlingSteps) continue;
         if (step == kSettlingSteps) {
             reference = values;
             before = resident_kib();
-        } else if (step == last && !reference.empty()) {
-            one.drift = difference(values, reference);
-            const std::optional<double> after = resident_kib();
-            if (before && after) one.growth_kib = *after - *before;
+        } else {
+            one.drift = std::max(one.drift.value_or(0), difference(values, reference));
         }
+        if (step <= kSettlingSteps + (last - kSettlingSteps) / 2) halfway = resident_kib();
     }
+    const std::optional<double> after = resident_kib();
+    if (one.drift && before && after) one.growth_kib = *after - *before;
+    if (one.drift && halfway && after) one.late_growth_kib = *after - *halfway;
     one.map_width = drawing.shape().width;
     one.map_height = drawing.shape().height;
 }

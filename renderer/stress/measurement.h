@@ -38,10 +38,13 @@ struct Measurement {
     int map_width = 0;
     int map_height = 0;
 
-    /// Of courses alone. Largest difference between the last frame and the one that had the same state first, once sizes had
-    /// settled; and the process's growth since then, KiB.
+    /// Of courses alone. Largest difference, over all periods, between a frame and the one that had the same state first, once
+    /// sizes had settled.
     std::optional<double> drift;
+    /// The process's growth since then, KiB, and what of it came in the second half: memory that is lost again and again grows in
+    /// both alike, what a driver or an allocator keeps for later only in the first.
     std::optional<double> growth_kib;
+    std::optional<double> late_growth_kib;
 };
 
 struct MeasurementSettings {

@@ -1,7 +1,7 @@
 // stress.csv: one row a technique under a condition.
 //
 // `condition` and `value` say what was done, `outcome` is drawn, refused or failed, and `message` says why. `error_rmse`,
-// `error_max`, `acne_share`, `detachment_texels`, `drift` and `growth_kib` are Measurement's (measurement.h), empty where there
+// `error_max`, `acne_share`, `detachment_texels`, `drift`, `growth_kib` and `late_growth_kib` are Measurement's (measurement.h), empty where there
 // is none to measure.
 #pragma once
 

@@ -1,9 +1,11 @@
 #include "renderer/stress/stress_job.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "renderer/stress/stress_page.h"
+#include "renderer/stress/stress_table.h"
 #include "renderer/techniques/techniques.h"
 #include "stimuli/error.h"
 #include "stimuli/io/output_file.h"
@@ -28,6 +30,22 @@ std::vector<const TechniqueEntry*> entries_of(const StressJob& job) {
     return entries;
 }
 
+/// Leaves the conditions of these kinds; all where there are none.
+void keep_only(std::vector<Condition>& conditions, const std::vector<std::string>& kinds) {
+    if (kinds.empty()) return;
+    std::string there_are;
+    std::set<std::string> known;
+    for (const Condition& one : conditions) {
+        if (known.insert(one.what).second) there_are += (there_are.empty() ? "" : "; ") + one.what;
+    }
+    for (const std::string& kind : kinds) {
+        if (!known.contains(kind)) {
+            throw InputError("--only", "\"" + kind + "\" is no kind of condition here", "use some of: " + there_are);
+        }
+    }
+    std::erase_if(conditions, [&](const Condition& one) { return std::ranges::find(kinds, one.what) == kinds.end(); });
+}
+
 ordered_json value_or_null(const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
 }
@@ -46,6 +64,7 @@ ordered_json row_of(const Condition& condition, const Measurement& one) {
     row["detachment_texels"] = value_or_null(one.detachment_texels);
     row["drift"] = value_or_null(one.drift);
     row["growth_kib"] = value_or_null(one.growth_kib);
+    row["late_growth_kib"] = value_or_null(one.late_growth_kib);
     row["message"] = one.failure + one.refusal;
     return row;
 }
@@ -71,13 +90,14 @@ ConditionResult measured(const Condition& condition, const std::vector<const Tec
 
 ordered_json run_stress(const StressJob& job) {
     const std::vector<const TechniqueEntry*> entries = entries_of(job);
+    std::vector<Condition> conditions = all_conditions(job.quick, job.long_run);
+    if (!job.courses) std::erase_if(conditions, [](const Condition& c) { return c.course != Course::picture; });
+    keep_only(conditions, job.only);
     make_output_folder(job.out);
-    for (const char* file : {"stress.csv", "index.html"}) OutputFile probe(job.out / file);
+    for (const char* file : {"stress.csv", "stress.md", "index.html"}) OutputFile probe(job.out / file);
     const auto context = gl::make_context(job.context);
     const Setting setting{gl::renderer_name(), std::string(gl::name(job.context)), job.measurement.width,
                           job.measurement.height};
-    std::vector<Condition> conditions = all_conditions(job.quick, job.long_run);
-    if (!job.courses) std::erase_if(conditions, [](const Condition& c) { return c.course != Course::picture; });
     long steps = 0;
     for (const Condition& condition : conditions) steps += condition.steps * static_cast<long>(entries.size());
     std::vector<ConditionResult> results;
@@ -88,6 +108,7 @@ ordered_json run_stress(const StressJob& job) {
         }
     }
     write_file(job.out / "stress.csv", stress_csv(results, setting));
+    write_file(job.out / "stress.md", stress_table(results));
     write_file(job.out / "index.html", stress_page(results, setting));
 
     ordered_json json{{"program", "stairstep-render " STAIRSTEP_VERSION},
@@ -121,6 +142,7 @@ std::string summary_of(const ordered_json& result) {
         add("detachment_texels", "detachment", 2);
         add("drift", "drift", 4);
         add("growth_kib", "growth KiB", 0);
+        add("late_growth_kib", "late growth KiB", 0);
         if (row["nan_pixels"] != 0) text += "  NaN pixels " + std::to_string(row["nan_pixels"].get<size_t>());
         if (row["gl_errors"] != 0) text += "  GL errors " + std::to_string(row["gl_errors"].get<size_t>());
         text += "\n";

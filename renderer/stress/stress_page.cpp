@@ -33,7 +33,7 @@ std::string technique_cells(const Condition& condition, const Measurement& one) 
     const std::string outcome = outcome_of(one);
     std::string html = cell(one.technique);
     if (outcome != "drawn") {
-        return html + "<td colspan=\"9\" class=\"" + outcome + "\">" + outcome + ": " +
+        return html + "<td colspan=\"10\" class=\"" + outcome + "\">" + outcome + ": " +
                escaped(one.failure + one.refusal) + "</td>";
     }
     const bool picture = condition.course == Course::picture;
@@ -45,7 +45,8 @@ std::string technique_cells(const Condition& condition, const Measurement& one) 
     html += cell(one.acne_share ? format_fixed(100 * *one.acne_share, 2) : "–", one.acne_share && *one.acne_share > 0);
     html += cell(fixed(one.detachment_texels, 2), one.detachment_texels && *one.detachment_texels >= 1);
     html += cell(fixed(one.drift, 4), one.drift && *one.drift > 0);
-    return html + cell(fixed(one.growth_kib, 0));
+    html += cell(fixed(one.growth_kib, 0));
+    return html + cell(fixed(one.late_growth_kib, 0));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ class Hard final : public ShadowTechnique {
   public:
     std::vector<std::string_view> shader() const override { return {embedded::hard_glsl}; }
     bool takes_warp() const override { return true; }
+    bool takes_linear_depth() const override { return true; }
     double reach(const LightFrustum&, double) const override { return 0; }
     Lookups lookups(const ShadowMap&) const override { return {0, 1, false}; }
 };

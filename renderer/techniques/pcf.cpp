@@ -48,6 +48,7 @@ class PcfExact final : public ShadowTechnique {
     }
 
     bool takes_warp() const override { return true; }
+    bool takes_linear_depth() const override { return true; }
 
     double reach(const LightFrustum&, double filter_radius) const override { return filter_radius; }
 
@@ -67,7 +68,10 @@ class PcfExact final : public ShadowTechnique {
   private:
     /// Whether windows hold the box, and finding them costs less than they save.
     bool has_ranges(const ShadowMap& map) const {
-        return skip_even_texels_ && 2 * gathers_per_side(map) + kWindowStep - 1 <= kWindowWidth &&
+        // Ranges are planes of what is stored: a surface in linear depths is none.
+        const LightFrustum& frustum = map.shape.frustum;
+        const bool planes = frustum.kind != Light::Kind::spot || frustum.encoding.spot == SpotDepth::reciprocal;
+        return planes && skip_even_texels_ && 2 * gathers_per_side(map) + kWindowStep - 1 <= kWindowWidth &&
                map.shape.texel_count() <= kMostTexelsForRanges;
     }
 
@@ -89,6 +93,7 @@ class PcfSampled final : public ShadowTechnique {
     std::vector<std::string_view> shader() const override { return {embedded::taps_glsl, embedded::pcf_sampled_glsl}; }
 
     bool takes_warp() const override { return true; }
+    bool takes_linear_depth() const override { return true; }
 
     double reach(const LightFrustum&, double filter_radius) const override { return filter_radius * taps_.reach(); }
 

@@ -74,6 +74,9 @@ class ShadowTechnique {
     /// Whether it can look into a map whose texels differ in size (light_warp.h).
     virtual bool takes_warp() const { return false; }
 
+    /// Whether it reads a spot's depths that are linear (depth_encoding.h): only through lit() of shaders/receiver.glsl.
+    virtual bool takes_linear_depth() const { return false; }
+
     /// Whether its filter's radius is its own in each pixel, and it writes `needed_texel`.
     virtual bool measures_need() const { return false; }
 

@@ -143,6 +143,9 @@ TEST_F(RenderProgram, ImageRefusesBadInput) {
     expect_error(image + "--light 0,nan", 2, "--light");
     expect_error(image + "--technique ray", 2, "pcf");
     expect_error(image + "--technique vsm --bleeding 1", 2, "--bleeding");
+    expect_error(image + "--depth-bits 8", 2, "--depth-bits 8");
+    expect_error(image + "--spot-depth logarithmic", 2, "--spot-depth");
+    expect_error(image + "--technique pcss --spot-depth linear", 2, "--spot-depth linear");
     expect_error(image + "--samples 32", 1, "samples");
     expect_error(image + "--filter sampled --taps 24", 2, "--taps");
     expect_error(image + "--resolution 4096 --filter exact", 2, "--filter exact");

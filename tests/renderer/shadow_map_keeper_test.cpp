@@ -65,13 +65,13 @@ std::vector<float> depths(const ShadowMap& map) {
 TEST_F(Keeper, DrawsWhatChangedAndNoMore) {
     const Scene scene = spheres_scene();
     const GpuScene gpu = upload(scene);
-    ShadowMap map = reserve_shadow_map(kSide);
-    ShadowMap fresh = reserve_shadow_map(kSide);
     ShadowMapKeeper keeper;
     ShadowMapKeeper forgetful;
     const size_t all = casting_triangles(scene, false);
     const size_t moving = casting_triangles(scene, true);
     ASSERT_LT(moving, all / 4);
+    ShadowMap map;
+    ShadowMap fresh;
     const auto drawn = [&](const SceneState& state) {
         map.shape = fresh.shape = shape_for(scene, state);
         const bool drew = keeper.update(gpu, state, map, {true, true});
@@ -81,16 +81,22 @@ TEST_F(Keeper, DrawsWhatChangedAndNoMore) {
         EXPECT_EQ(depths(map), depths(fresh)) << "what is kept is what would be drawn";
         return keeper.triangles();
     };
-    EXPECT_EQ(drawn(spheres_state(0)), all);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(drawn(spheres_state(0)), 0u);
-    EXPECT_EQ(drawn(spheres_state(0.5)), all) << "those that stand still are put aside, once";
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(drawn(spheres_state(1 + 0.5 * i)), moving);
-    EXPECT_EQ(drawn(spheres_state(2)), 0u);
-    EXPECT_EQ(drawn(spheres_state(2, 50)), all) << "the light moved";
-    EXPECT_EQ(drawn(spheres_state(2, 50)), 0u);
-    EXPECT_EQ(drawn(spheres_state(2.5, 70)), all) << "both moved";
-    EXPECT_EQ(drawn(spheres_state(3, 70)), all);
-    EXPECT_EQ(drawn(spheres_state(-3, 70)), moving);
+    // One after the other: what was put aside in one format is of no use in the next.
+    for (const DepthFormat format : {DepthFormat::float32, DepthFormat::unorm16, DepthFormat::unorm24}) {
+        SCOPED_TRACE(bits_of(format));
+        map = reserve_shadow_map(kSide, format);
+        fresh = reserve_shadow_map(kSide, format);
+        EXPECT_EQ(drawn(spheres_state(0)), all);
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(drawn(spheres_state(0)), 0u);
+        EXPECT_EQ(drawn(spheres_state(0.5)), all) << "those that stand still are put aside, once";
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(drawn(spheres_state(1 + 0.5 * i)), moving);
+        EXPECT_EQ(drawn(spheres_state(2)), 0u);
+        EXPECT_EQ(drawn(spheres_state(2, 50)), all) << "the light moved";
+        EXPECT_EQ(drawn(spheres_state(2, 50)), 0u);
+        EXPECT_EQ(drawn(spheres_state(2.5, 70)), all) << "both moved";
+        EXPECT_EQ(drawn(spheres_state(3, 70)), all);
+        EXPECT_EQ(drawn(spheres_state(-3, 70)), moving);
+    }
 }
 
 TEST_F(Keeper, RedrawsForAnotherSceneAndOtherMemory) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "renderer/gl/context.h"
+#include "renderer/stress/stress_table.h"
 #include "renderer/techniques/techniques.h"
 
 namespace stairstep::stress {
@@ -104,6 +105,39 @@ TEST_F(Stress, CoursesEndAsTheyBegan) {
             EXPECT_EQ(one.gl_errors, 0u);
         }
     }
+}
+
+TEST(Table, HasARowForValuesThatFareAlike) {
+    Condition picture;
+    picture.what = "light";
+    Measurement fine;
+    fine.technique = "hard";
+    fine.error_rmse = 0.01;
+    Measurement broken = fine;
+    broken.acne_share = 0.125;
+    broken.detachment_texels = 2;
+    broken.nan_pixels = 3;
+    Condition course;
+    course.what = "frames";
+    course.course = Course::frames;
+    Measurement long_run = fine;
+    long_run.drift = 0;
+    long_run.growth_kib = 20;
+    long_run.late_growth_kib = 4;
+    std::vector<ConditionResult> results;
+    const auto add = [&](Condition condition, const std::string& value, const Measurement& one) {
+        condition.value = value;
+        results.push_back({condition, {one}});
+    };
+    add(picture, "1", fine);
+    add(course, "80", long_run);
+    add(picture, "2", broken);
+    add(picture, "3", fine);
+    EXPECT_EQ(stress_table(results),
+              "| condition | hard |\n|---|---|\n"
+              "| light: 1; 3 | 0.0100 |\n"
+              "| light: 2 | 0.0100, acne 12.50 %, gap 2.00, NaN 3 |\n"
+              "| frames: 80 | drift 0.0000, 20 KiB (4) |\n");
 }
 
 TEST(Conditions, AreNamedOnceAndAllQuickOnesAreAmongThem) {

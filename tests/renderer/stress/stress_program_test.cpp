@@ -8,6 +8,7 @@
 #include "stimuli/io/json_file.h"
 #include "stimuli/io/output_file.h"
 #include "stimuli/io/temporary_folder.h"
+#include "stimuli/number.h"
 #include "tests/support/command.h"
 
 namespace stairstep {
@@ -25,7 +26,8 @@ class StressProgram : public testing::Test {
 
 TEST_F(StressProgram, RefusesBadInput) {
     for (const std::string arguments :
-         {"--techniques fog", "--techniques hard,hard", "--techniques \"\"", "--size 0x1", "--context metal"}) {
+         {"--techniques fog", "--only fog", "--only \"frames;fog\"", "--techniques hard,hard", "--techniques \"\"",
+          "--size 0x1", "--context metal"}) {
         const CommandResult outcome = run(arguments);
         EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.errors;
         EXPECT_TRUE(is_one_error_line(outcome.errors)) << arguments << "\n" << outcome.errors;
@@ -53,6 +55,10 @@ TEST_F(StressProgram, WritesATableAndAPage) {
          {"condition", "error_rmse", "nan_pixels", "gl_errors", "acne_share", "detachment_texels"}) {
         EXPECT_TRUE(csv.find_column(column)) << column;
     }
+    // No more than a row a condition below the head, and a column a technique; each condition is in one of them.
+    const std::vector<std::string> lines = split(read_file(out() / "stress.md"), '\n');
+    EXPECT_LE(lines.size(), 2 + csv.row_count() / 2 + 1);
+    EXPECT_EQ(lines.front(), "| condition | none | hard |");
     const std::string page = read_file(out() / "index.html");
     EXPECT_NE(page.find("</html>"), std::string::npos);
     // Nothing from a network, and no place left open.
