@@ -16,6 +16,7 @@ SceneEntry colonnade_scene();
 SceneEntry city_scene();
 SceneEntry clutter_scene();
 SceneEntry cornell_scene();
+SceneEntry rooms_scene();
 
 namespace {
 
@@ -33,7 +34,8 @@ std::string names() {
 }  // namespace
 
 std::span<const SceneEntry> scenes() {
-    static const std::array list{crane_scene(), colonnade_scene(), city_scene(), clutter_scene(), cornell_scene()};
+    static const std::array list{crane_scene(),   colonnade_scene(), city_scene(),
+                                 clutter_scene(), cornell_scene(),   rooms_scene()};
     return list;
 }
 
