@@ -3,17 +3,10 @@
 #include <algorithm>
 
 namespace stairstep {
+namespace {
 
-std::vector<CasterBox> caster_boxes(const GpuScene& scene) {
-    std::vector<CasterBox> boxes;
-    for (const GpuScene::Draw& draw : scene.draws) {
-        if (!draw.casts) continue;
-        for (const Cluster& cluster : draw.clusters) boxes.push_back({cluster.bounds, draw.mover});
-    }
-    const size_t each = (boxes.size() + kMostCasterBoxes - 1) / kMostCasterBoxes;
-    if (each <= 1) return boxes;
-    std::stable_sort(boxes.begin(), boxes.end(),
-                     [](const CasterBox& a, const CasterBox& b) { return a.mover < b.mover; });
+/// So many that follow each other become one, if they move as one.
+std::vector<CasterBox> joined_by(const std::vector<CasterBox>& boxes, size_t each) {
     std::vector<CasterBox> joined;
     size_t in_last = each;
     for (const CasterBox& box : boxes) {
@@ -25,6 +18,22 @@ std::vector<CasterBox> caster_boxes(const GpuScene& scene) {
         joined.back().bounds.add(box.bounds.high);
         ++in_last;
     }
+    return joined;
+}
+
+}  // namespace
+
+std::vector<CasterBox> caster_boxes(const GpuScene& scene) {
+    std::vector<CasterBox> boxes;
+    for (const GpuScene::Draw& draw : scene.draws) {
+        if (!draw.casts) continue;
+        for (const Cluster& cluster : draw.clusters) boxes.push_back({cluster.bounds, draw.mover});
+    }
+    std::stable_sort(boxes.begin(), boxes.end(),
+                     [](const CasterBox& a, const CasterBox& b) { return a.mover < b.mover; });
+    size_t each = std::max<size_t>((boxes.size() + kMostCasterBoxes - 1) / kMostCasterBoxes, 1);
+    std::vector<CasterBox> joined = joined_by(boxes, each);
+    while (joined.size() > kMostCasterBoxes && each < boxes.size()) joined = joined_by(boxes, each *= 2);
     return joined;
 }
 

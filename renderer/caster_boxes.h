@@ -8,7 +8,7 @@
 
 namespace stairstep {
 
-/// Most boxes of a scene, if no more than that move on their own.
+/// Most boxes of a scene.
 inline constexpr size_t kMostCasterBoxes = 128;
 
 struct CasterBox {
@@ -18,9 +18,9 @@ struct CasterBox {
     std::optional<size_t> mover;
 };
 
-/// Boxes that together hold all casting triangles, each triangle whole in one: those of clusters, or of several that follow
-/// each other, where there are more than kMostCasterBoxes. What moves on its own has its own. Anchor: 300 casters of a triangle
-/// each that stand still get 100 boxes.
+/// Boxes that together hold all casting triangles, each triangle whole in one: those of clusters, or of several that follow each other
+/// and move as one, as few as give no more than kMostCasterBoxes. More only where more than that move on their own. Anchor: 300
+/// casters of a triangle each that stand still get 100 boxes.
 std::vector<CasterBox> caster_boxes(const GpuScene& scene);
 
 /// A box turned anywhere: all points centre + Σ u_i·half_i·axis_i, |u_i| ≤ 1.

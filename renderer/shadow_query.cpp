@@ -10,34 +10,18 @@
 namespace stairstep {
 namespace {
 
-/// As in shaders/shadow_query.frag: pixels of a tile's side, and lights a look can tell apart.
+constexpr std::string_view kVersion = "#version 450 core\n";
+/// Pixels of a tile's side, as in shaders/shadow_query.frag.
 constexpr int kTileSide = 8;
-constexpr size_t kLightsAtOnce = 32;
+/// Lights whose answers come at once: their tiles lie one above the other, in a texture that isn't too tall.
+constexpr size_t kLightsAtOnce = 16;
 /// Pixels from one that is looked at to the next, at first.
 constexpr int kFirstStep = 4;
 constexpr int kLongestWait = 16;
 /// Roundings of a place in eye space, of its distance.
 constexpr double kRounding = 1e-6;
 
-/// shaders/shadow_query.frag has the same two, laid out by std430.
-struct AskedLight {
-    glm::vec3 right;
-    float reach;
-    glm::vec3 up;
-    float softness;
-    glm::vec3 back;
-    float cone_cosine;
-    glm::vec3 from_eye;
-    float nearest;
-    glm::vec2 slice;
-    int first_box;
-    int box_count;
-    int is_spot;
-    int looks_anywhere;
-    int unused[2];
-};
-static_assert(sizeof(AskedLight) == 96);
-
+/// As in shaders/shadow_query.frag, laid out by std140.
 struct AskedBox {
     glm::vec3 axis_x;
     float half_x;
@@ -50,17 +34,17 @@ struct AskedBox {
     glm::vec3 spread;
     float rounding;
 };
-static_assert(sizeof(AskedBox) == 80);
+static_assert(sizeof(AskedBox) == 80 && 80 * kMostCasterBoxes <= 16384);
 
 bool is_outside(const TurnedBox& box, const glm::dvec4& plane) {
     const glm::dvec3 normal(plane);
     return glm::dot(normal, box.centre) + plane.w + box.extent(normal) < 0;
 }
 
-/// The box as the shader has it; `depths` are those of its ends along the light.
-AskedBox asked_box(const TurnedBox& box, const LightFrustum& frustum, const glm::dvec3& eye, const glm::dvec2& depths) {
+/// The box as the shader has it; `far_depth` is that of its far end along the light.
+AskedBox asked_box(const TurnedBox& box, const LightFrustum& frustum, const glm::dvec3& eye, double far_depth) {
     const glm::dvec3 centre = box.centre - eye;
-    const double factor = frustum.kind == Light::Kind::spot ? depths.y : 1;
+    const double factor = frustum.kind == Light::Kind::spot ? far_depth : 1;
     const glm::dvec3 spread = glm::abs(frustum.basis.right * box.axes) + glm::abs(frustum.basis.up * box.axes);
     return {glm::vec3(box.axes[0]), static_cast<float>(box.half.x),
             glm::vec3(box.axes[1]), static_cast<float>(box.half.y),
@@ -69,15 +53,15 @@ AskedBox asked_box(const TurnedBox& box, const LightFrustum& frustum, const glm:
             glm::vec3(spread),      static_cast<float>(kRounding * (glm::length(centre) + glm::length(box.half)))};
 }
 
-/// Appends the boxes that may shade what is visible. Depths are from the eye, and from the light for a spot.
-AskedLight asked_light(const ShadowQuestion& question, const std::vector<TurnedBox>& casters, const glm::dvec3& eye,
-                       std::vector<AskedBox>& boxes) {
+/// Those that may shade what is visible, and the depth of the first: from the eye, or from the light for a spot.
+std::pair<std::vector<AskedBox>, double> asked_boxes(const ShadowQuestion& question,
+                                                     const std::vector<TurnedBox>& casters, const glm::dvec3& eye) {
     const LightFrustum& frustum = question.frustum;
     const glm::dvec3& back = frustum.basis.back;
     const bool spot = frustum.kind == Light::Kind::spot;
     const glm::dvec3 origin = spot ? frustum.position : eye;
     double nearest = INFINITY;
-    const size_t first = boxes.size();
+    std::vector<AskedBox> boxes;
     for (const TurnedBox& box : casters) {
         const auto& planes = frustum.caster_planes;
         if (std::any_of(planes.begin(), planes.end(), [&](const auto& plane) { return is_outside(box, plane); })) {
@@ -87,100 +71,126 @@ AskedLight asked_light(const ShadowQuestion& question, const std::vector<TurnedB
         const double half = box.extent(back);
         if (spot && middle + half <= 0) continue;
         nearest = std::min(nearest, middle - half);
-        boxes.push_back(asked_box(box, frustum, eye, {middle - half, middle + half}));
+        boxes.push_back(asked_box(box, frustum, eye, middle + half));
     }
     // What is nearer to a spot is stored as if it were there.
-    if (spot) nearest = std::max(nearest, frustum.nearest);
-    return {.right = glm::vec3(frustum.basis.right),
-            .reach = static_cast<float>(question.reach),
-            .up = glm::vec3(frustum.basis.up),
-            .softness = static_cast<float>(question.softness),
-            .back = glm::vec3(back),
-            .cone_cosine = static_cast<float>(std::cos(question.light.cone_deg * std::numbers::pi / 180)),
-            .from_eye = glm::vec3(frustum.position - eye),
-            .nearest = static_cast<float>(nearest),
-            .slice = question.slice ? glm::vec2(*question.slice) : glm::vec2(-INFINITY, INFINITY),
-            .first_box = static_cast<int>(first),
-            .box_count = static_cast<int>(boxes.size() - first),
-            .is_spot = spot,
-            .looks_anywhere = question.looks_anywhere,
-            .unused = {}};
+    return {std::move(boxes), spot ? std::max(nearest, frustum.nearest) : nearest};
+}
+
+void set_light_uniforms(const gl::Program& program, const ShadowQuestion& question, const glm::dvec3& eye,
+                        double nearest, size_t box_count) {
+    const LightFrustum& frustum = question.frustum;
+    const glm::dvec2 everywhere(-1e30, 1e30);
+    gl::set_uniform(program, "is_spot", frustum.kind == Light::Kind::spot ? 1 : 0);
+    gl::set_uniform(program, "light_right", glm::vec3(frustum.basis.right));
+    gl::set_uniform(program, "light_up", glm::vec3(frustum.basis.up));
+    gl::set_uniform(program, "light_back", glm::vec3(frustum.basis.back));
+    gl::set_uniform(program, "light_place", glm::vec3(frustum.position - eye));
+    gl::set_uniform(program, "cone_cosine",
+                    static_cast<float>(std::cos(question.light.cone_deg * std::numbers::pi / 180)));
+    gl::set_uniform(program, "slice", glm::vec2(question.slice.value_or(everywhere)));
+    gl::set_uniform(program, "looks_anywhere", question.looks_anywhere ? 1 : 0);
+    gl::set_uniform(program, "constant_reach", static_cast<float>(question.reach));
+    gl::set_uniform(program, "softness", static_cast<float>(question.softness));
+    gl::set_uniform(program, "nearest", static_cast<float>(std::min(nearest, 1e30)));
+    gl::set_uniform(program, "box_count", static_cast<int>(box_count));
 }
 
 }  // namespace
 
 ShadowQuery::ShadowQuery()
-    : program_(gl::make_program(
+    : tiles_program_(gl::make_program(
+          "surface tiles", {embedded::fullscreen_vert},
+          {kVersion, embedded::surface_glsl, embedded::surface_stored_glsl, embedded::surface_tiles_frag})),
+      query_program_(gl::make_program(
           "shadow query", {embedded::fullscreen_vert},
-          {"#version 450 core\n", embedded::surface_glsl, embedded::surface_stored_glsl, embedded::shadow_query_frag})),
+          {kVersion, embedded::surface_glsl, embedded::surface_stored_glsl, embedded::shadow_query_frag})),
       no_vertices_(gl::make_vertex_array()) {}
 
-void ShadowQuery::reserve(const FrameTarget& target) {
+void ShadowQuery::reserve(const FrameTarget& target, size_t lights) {
     const glm::ivec2 count = (glm::ivec2(target.width, target.height) + kTileSide - 1) / kTileSide;
-    if (count == tile_count_) return;
+    if (count != tile_count_) {
+        for (gl::Texture& bound : bounds_) bound = gl::make_texture(GL_RGBA32F, count.x, count.y);
+        bounds_framebuffer_ =
+            gl::make_framebuffer({bounds_[0].id(), bounds_[1].id(), bounds_[2].id(), bounds_[3].id()}, 0);
+    }
+    if (count != tile_count_ || lights != answers_of_) {
+        answers_ = gl::make_texture(GL_R32UI, count.x, count.y * static_cast<int>(lights));
+        answers_framebuffer_ = gl::make_framebuffer(answers_.id(), 0);
+    }
     tile_count_ = count;
-    tiles_ = gl::make_texture(GL_RG32UI, count.x, count.y);
-    framebuffer_ = gl::make_framebuffer(tiles_.id(), 0);
+    answers_of_ = lights;
 }
 
-ShadowQuery::Bits ShadowQuery::look(int step, uint32_t known, const FrameTarget& target) const {
-    gl::set_uniform(program_, "step_px", step);
-    gl::set_uniform(program_, "known", static_cast<int>(known));
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
-    gl::Viewport(0, 0, tile_count_.x, tile_count_.y);
+std::vector<Shown> ShadowQuery::look(int step, const Camera& camera, const FrameTarget& target,
+                                     std::span<const ShadowQuestion> questions, const std::vector<TurnedBox>& casters) {
+    reserve(target, questions.size());
     gl::Disable(GL_DEPTH_TEST);
-    gl::UseProgram(program_.id());
     gl::BindVertexArray(no_vertices_.id());
     gl::BindTextureUnit(4, target.planes.id());
     gl::BindTextureUnit(5, target.materials.id());
-    gl::DrawArrays(GL_TRIANGLES, 0, 3);
-    std::vector<glm::uvec2> tiles(static_cast<size_t>(tile_count_.x) * tile_count_.y);
-    gl::GetTextureImage(tiles_.id(), 0, GL_RG_INTEGER, GL_UNSIGNED_INT,
-                        static_cast<GLsizei>(tiles.size() * sizeof(glm::uvec2)), tiles.data());
-    Bits bits;
-    for (const glm::uvec2& tile : tiles) {
-        bits.lit |= tile.x;
-        bits.shaded |= tile.y;
+    for (const gl::Program* program : {&tiles_program_, &query_program_}) {
+        set_ray_uniforms(*program, camera, target);
+        gl::set_uniform(*program, "step_px", step);
     }
-    return bits;
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, bounds_framebuffer_.id());
+    gl::Viewport(0, 0, tile_count_.x, tile_count_.y);
+    gl::UseProgram(tiles_program_.id());
+    gl::DrawArrays(GL_TRIANGLES, 0, 3);
+
+    for (GLuint i = 0; i < bounds_.size(); ++i) gl::BindTextureUnit(i, bounds_[i].id());
+    gl::set_uniform(query_program_, "view_back", glm::vec3(camera.basis.back));
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, answers_framebuffer_.id());
+    gl::UseProgram(query_program_.id());
+    for (size_t i = 0; i < questions.size(); ++i) {
+        auto [boxes, nearest] = asked_boxes(questions[i], casters, camera.eye);
+        const int first_row = static_cast<int>(i) * tile_count_.y;
+        set_light_uniforms(query_program_, questions[i], camera.eye, nearest, boxes.size());
+        gl::set_uniform(query_program_, "first_row", first_row);
+        // What isn't looked at one by one may be anywhere.
+        if (boxes.size() > kMostCasterBoxes) gl::set_uniform(query_program_, "looks_anywhere", 1);
+        // As large as the shader says it is.
+        boxes.resize(kMostCasterBoxes);
+        const gl::Buffer buffer = gl::make_buffer(std::as_bytes(std::span(boxes)));
+        gl::BindBufferBase(GL_UNIFORM_BUFFER, 0, buffer.id());
+        gl::Viewport(0, first_row, tile_count_.x, tile_count_.y);
+        gl::DrawArrays(GL_TRIANGLES, 0, 3);
+    }
+
+    const size_t tiles = static_cast<size_t>(tile_count_.x) * tile_count_.y;
+    std::vector<uint32_t> found(tiles * questions.size());
+    gl::GetTextureImage(answers_.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                        static_cast<GLsizei>(found.size() * sizeof(uint32_t)), found.data());
+    std::vector<Shown> answers;
+    for (auto first = found.begin(); first != found.end(); first += static_cast<ptrdiff_t>(tiles)) {
+        const uint32_t most = *std::max_element(first, first + static_cast<ptrdiff_t>(tiles));
+        answers.push_back(most == 0 ? Shown::nothing : most == 1 ? Shown::light : Shown::shadow);
+    }
+    return answers;
 }
 
 std::vector<Shown> ShadowQuery::ask(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
                                     std::span<const ShadowQuestion> questions) {
-    std::vector<Shown> answers;
+    std::vector<Shown> answers(questions.size(), Shown::nothing);
     if (questions.empty()) return answers;
-    reserve(target);
     if (boxes_of_ != scene.serial) {
         boxes_ = caster_boxes(scene);
         boxes_of_ = scene.serial;
     }
     std::vector<TurnedBox> casters;
     for (const CasterBox& box : boxes_) casters.push_back(box_at(box, state));
-    set_ray_uniforms(program_, state.camera, target);
-    gl::set_uniform(program_, "view_back", glm::vec3(state.camera.basis.back));
 
-    for (size_t first = 0; first < questions.size(); first += kLightsAtOnce) {
-        const std::span<const ShadowQuestion> some =
-            questions.subspan(first, std::min(kLightsAtOnce, questions.size() - first));
-        std::vector<AskedLight> lights;
-        std::vector<AskedBox> boxes;
-        for (const ShadowQuestion& one : some) lights.push_back(asked_light(one, casters, state.camera.eye, boxes));
-        // Buffers can't be empty.
-        if (boxes.empty()) boxes.emplace_back();
-        const gl::Buffer light_buffer = gl::make_buffer(std::as_bytes(std::span(lights)));
-        const gl::Buffer box_buffer = gl::make_buffer(std::as_bytes(std::span(boxes)));
-        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, light_buffer.id());
-        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, box_buffer.id());
-        gl::set_uniform(program_, "light_count", static_cast<int>(lights.size()));
-        const auto all = static_cast<uint32_t>((uint64_t{1} << lights.size()) - 1);
-        Bits found = look(kFirstStep, 0, target);
-        if (found.shaded != all) {
-            const Bits more = look(1, found.shaded, target);
-            found = {found.lit | more.lit, found.shaded | more.shaded};
+    for (const int step : {kFirstStep, 1}) {
+        std::vector<size_t> open;
+        for (size_t i = 0; i < answers.size(); ++i) {
+            if (answers[i] != Shown::shadow) open.push_back(i);
         }
-        for (size_t i = 0; i < lights.size(); ++i) {
-            const uint32_t bit = uint32_t{1} << i;
-            answers.push_back(found.shaded & bit ? Shown::shadow : found.lit & bit ? Shown::light : Shown::nothing);
+        for (size_t first = 0; first < open.size(); first += kLightsAtOnce) {
+            const size_t count = std::min(kLightsAtOnce, open.size() - first);
+            std::vector<ShadowQuestion> some;
+            for (size_t i = 0; i < count; ++i) some.push_back(questions[open[first + i]]);
+            const std::vector<Shown> found = look(step, state.camera, target, some, casters);
+            for (size_t i = 0; i < count; ++i) answers[open[first + i]] = found[i];
         }
     }
     return answers;

@@ -14,9 +14,11 @@
 // box's z_b where penumbrae do (light.h): by softness·(z_p − z_b), or softness·(1/z_b − 1/z_p) for a spot. Boxes hold 256 triangles
 // or more (caster_boxes.h), so that what is exact of the rays is rough of the casters.
 //
-// A look at each 16th pixel comes first: most lights that throw a shadow are found there. The answer is waited for.
+// Bounds of the points and normals of 8 × 8 pixels come first, and tell most tiles that a light doesn't reach; then each pixel of the
+// others. A look at each 16th pixel goes before: most lights that throw a shadow are found there. The answer is waited for.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -55,19 +57,22 @@ class ShadowQuery {
                            std::span<const ShadowQuestion> questions);
 
   private:
-    void reserve(const FrameTarget& target);
-    /// Of up to 32 questions: bit i is question i's.
-    struct Bits {
-        uint32_t lit = 0;
-        uint32_t shaded = 0;
-    };
-    Bits look(int step, uint32_t known, const FrameTarget& target) const;
+    void reserve(const FrameTarget& target, size_t lights);
+    /// At each step-th pixel each way.
+    std::vector<Shown> look(int step, const Camera& camera, const FrameTarget& target,
+                            std::span<const ShadowQuestion> questions, const std::vector<TurnedBox>& casters);
 
-    gl::Program program_;
+    gl::Program tiles_program_;
+    gl::Program query_program_;
     gl::VertexArray no_vertices_;
-    gl::Texture tiles_;
-    gl::Framebuffer framebuffer_;
     glm::ivec2 tile_count_{0};
+    /// Of tiles of pixels: lowest and highest point and normal.
+    std::array<gl::Texture, 4> bounds_;
+    gl::Framebuffer bounds_framebuffer_;
+    /// A number a tile and light, of so many lights.
+    gl::Texture answers_;
+    gl::Framebuffer answers_framebuffer_;
+    size_t answers_of_ = 0;
     /// Of the scene with this serial.
     std::vector<CasterBox> boxes_;
     uint64_t boxes_of_ = 0;

@@ -1,31 +1,35 @@
-// Of each tile of 8 × 8 pixels, which lights its stored surfaces face, and which may shade them: a bit a light (shadow_query.h).
-// surface_stored.glsl goes before.
+// What a light does to the surfaces that each tile of 8 × 8 pixels has stored: reaches none of them, 0; lights some, 1; may shade one,
+// 2 (shadow_query.h). surface_stored.glsl goes before.
+
+layout(binding = 0) uniform sampler2D tile_point_low;
+layout(binding = 1) uniform sampler2D tile_point_high;
+layout(binding = 2) uniform sampler2D tile_normal_low;
+layout(binding = 3) uniform sampler2D tile_normal_high;
 
 // Pixels from one that is looked at to the next: 1, 2, 4 or 8.
 uniform int step_px;
-// Lights that are known to shade something: not asked about.
-uniform int known;
-uniform int light_count;
+// Where the light's answers begin.
+uniform int first_row;
 uniform vec3 view_back;
 
-struct Light {
-    // The axes of the light plane.
-    vec3 right;
-    float reach;
-    vec3 up;
-    float softness;
-    vec3 back;
-    float cone_cosine;
-    vec3 from_eye;
-    // Depth of the first caster; a spot's from the light, a directional light's from the eye.
-    float nearest;
-    vec2 slice;
-    int first_box;
-    int box_count;
-    int is_spot;
-    int looks_anywhere;
-    ivec2 unused;
-};
+uniform int is_spot;
+// The axes of the light plane, and against the light.
+uniform vec3 light_right;
+uniform vec3 light_up;
+uniform vec3 light_back;
+// Eye space, of a spot.
+uniform vec3 light_place;
+uniform float cone_cosine;
+uniform vec2 slice;
+// How far the technique looks: everywhere, or this far and by so much farther for each unit of depth above the nearest caster's.
+uniform int looks_anywhere;
+uniform float constant_reach;
+uniform float softness;
+// Depth of the first caster; a spot's from the light, a directional light's from the eye.
+uniform float nearest;
+
+uniform int first_box;
+uniform int box_count;
 
 struct Box {
     vec3 axis_x;
@@ -43,16 +47,30 @@ struct Box {
     float rounding;
 };
 
-layout(std430, binding = 4) readonly buffer Lights { Light lights[]; };
-layout(std430, binding = 5) readonly buffer Boxes { Box boxes[]; };
+layout(std140, binding = 0) uniform Boxes { Box boxes[128]; };
 
-out uvec2 lit_and_shaded;
+out uint answer;
 
 const int kSide = 8;
 // Roundings, of a direction's cosine and of a place's distance.
 const float kRounding = 1e-6;
 
-// A surface point as a light meets it.
+// Whether some point in the bounds, with some normal in theirs, faces the light and is within its cone.
+bool may_light(vec3 low, vec3 high, vec3 normal_low, vec3 normal_high) {
+    if (low.x > high.x) return false;
+    // From the points to the light.
+    vec3 way_low = is_spot != 0 ? light_place - high : light_back;
+    vec3 way_high = is_spot != 0 ? light_place - low : light_back;
+    vec3 most = max(max(normal_low * way_low, normal_low * way_high), max(normal_high * way_low, normal_high * way_high));
+    float length_most = length(max(abs(way_low), abs(way_high)));
+    bool faces = most.x + most.y + most.z > -2 * kRounding * length_most;
+    if (is_spot == 0) return faces;
+    vec3 back = max(light_back * way_low, light_back * way_high);
+    float length_least = length(max(max(way_low, -way_high), vec3(0)));
+    return faces && back.x + back.y + back.z > cone_cosine * length_least - 2 * kRounding * length_most;
+}
+
+// A surface point as the light meets it.
 struct Met {
     vec3 from_eye;
     // Towards the light, and how far away that is.
@@ -87,39 +105,41 @@ bool may_shade(Box box, Met met) {
            leaves >= -reach * met.fall;
 }
 
-void main() {
-    ivec2 end = textureSize(planes, 0) - 1;
-    ivec2 first_pixel = kSide * ivec2(gl_FragCoord.xy);
-    int per_side = kSide / step_px;
-    uint lit = 0u;
-    uint shaded = 0u;
-    for (int k = 0; k < per_side * per_side; ++k) {
-        Surface surface = surface_at(min(first_pixel + step_px * ivec2(k % per_side, k / per_side), end));
-        if (surface.facet == vec3(0)) continue;
-        float view_depth = -dot(view_back, surface.from_eye);
-        for (int i = 0; i < light_count; ++i) {
-            uint bit = 1u << i;
-            if (((uint(known) | shaded) & bit) != 0u) continue;
-            Light light = lights[i];
-            if (view_depth < light.slice.x || view_depth >= light.slice.y) continue;
-            vec3 to_spot = light.from_eye - surface.from_eye;
-            vec3 towards = light.is_spot != 0 ? normalize(to_spot) : light.back;
-            float facing = dot(surface.facet, towards);
-            if (facing <= -kRounding) continue;
-            if (light.is_spot != 0 && dot(towards, light.back) <= light.cone_cosine - kRounding) continue;
-            lit |= bit;
+uint answer_of(Surface surface) {
+    if (surface.facet == vec3(0)) return 0u;
+    float view_depth = -dot(view_back, surface.from_eye);
+    if (view_depth < slice.x || view_depth >= slice.y) return 0u;
+    vec3 to_spot = light_place - surface.from_eye;
+    vec3 towards = is_spot != 0 ? normalize(to_spot) : light_back;
+    float facing = dot(surface.facet, towards);
+    if (facing <= -kRounding) return 0u;
+    if (is_spot != 0 && dot(towards, light_back) <= cone_cosine - kRounding) return 0u;
+    if (box_count == 0) return 1u;
+    if (looks_anywhere != 0) return 2u;
 
-            float depth = light.is_spot != 0 ? dot(light.back, to_spot) : -dot(light.back, surface.from_eye);
-            float softening = light.is_spot != 0 ? 1 / light.nearest - 1 / depth : depth - light.nearest;
-            vec3 normal = surface.facet + max(0.05 - facing, 0) * towards;
-            float fall = (abs(dot(normal, light.right)) + abs(dot(normal, light.up))) / max(facing, 0.05);
-            Met met = Met(surface.from_eye, towards, light.is_spot != 0 ? length(to_spot) : 1e30, normal,
-                          light.reach + light.softness * max(softening, 0), fall);
-            int count = light.looks_anywhere != 0 ? 0 : light.box_count;
-            bool found = light.looks_anywhere != 0 && light.box_count > 0;
-            for (int j = 0; j < count && !found; ++j) found = may_shade(boxes[light.first_box + j], met);
-            if (found) shaded |= bit;
-        }
+    float depth = is_spot != 0 ? dot(light_back, to_spot) : -dot(light_back, surface.from_eye);
+    float softening = is_spot != 0 ? 1 / nearest - 1 / depth : depth - nearest;
+    vec3 normal = surface.facet + max(0.05 - facing, 0) * towards;
+    float fall = (abs(dot(normal, light_right)) + abs(dot(normal, light_up))) / max(facing, 0.05);
+    Met met = Met(surface.from_eye, towards, is_spot != 0 ? length(to_spot) : 1e30, normal,
+                  constant_reach + softness * max(softening, 0), fall);
+    for (int i = 0; i < box_count; ++i) {
+        if (may_shade(boxes[first_box + i], met)) return 2u;
     }
-    lit_and_shaded = uvec2(lit, shaded);
+    return 1u;
+}
+
+void main() {
+    ivec2 tile = ivec2(gl_FragCoord.xy) - ivec2(0, first_row);
+    bool lights = may_light(texelFetch(tile_point_low, tile, 0).xyz, texelFetch(tile_point_high, tile, 0).xyz,
+                            texelFetch(tile_normal_low, tile, 0).xyz, texelFetch(tile_normal_high, tile, 0).xyz);
+    ivec2 end = textureSize(planes, 0) - 1;
+    int per_side = kSide / step_px;
+    // A loop that isn't entered costs nothing, where a branch around one may be flattened.
+    int pixels = lights ? per_side * per_side : 0;
+    answer = 0u;
+    for (int k = 0; k < pixels && answer < 2u; ++k) {
+        ivec2 pixel = kSide * tile + step_px * ivec2(k % per_side, k / per_side);
+        answer = max(answer, answer_of(surface_at(min(pixel, end))));
+    }
 }
