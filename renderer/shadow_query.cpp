@@ -11,12 +11,14 @@ namespace stairstep {
 namespace {
 
 constexpr std::string_view kVersion = "#version 450 core\n";
-/// Pixels of a tile's side, as in shaders/shadow_query.frag.
-constexpr int kTileSide = 8;
+/// A look at a picture: pixels of a tile's side, and from one that is looked at to the next.
+struct Look {
+    int side;
+    int step;
+};
+constexpr std::array<Look, 3> kLooks{{{16, 16}, {8, 4}, {8, 1}}};
 /// Lights whose answers come at once: their tiles lie one above the other, in a texture that isn't too tall.
 constexpr size_t kLightsAtOnce = 16;
-/// Pixels from one that is looked at to the next, at first.
-constexpr int kFirstStep = 4;
 constexpr int kLongestWait = 16;
 /// Roundings of a place in eye space, of its distance.
 constexpr double kRounding = 1e-6;
@@ -107,44 +109,44 @@ ShadowQuery::ShadowQuery()
           {kVersion, embedded::surface_glsl, embedded::surface_stored_glsl, embedded::shadow_query_frag})),
       no_vertices_(gl::make_vertex_array()) {}
 
-void ShadowQuery::reserve(const FrameTarget& target, size_t lights) {
-    const glm::ivec2 count = (glm::ivec2(target.width, target.height) + kTileSide - 1) / kTileSide;
-    if (count != tile_count_) {
-        for (gl::Texture& bound : bounds_) bound = gl::make_texture(GL_RGBA32F, count.x, count.y);
-        bounds_framebuffer_ =
-            gl::make_framebuffer({bounds_[0].id(), bounds_[1].id(), bounds_[2].id(), bounds_[3].id()}, 0);
+void ShadowQuery::Tiles::reserve(const glm::ivec2& wanted_count, size_t wanted_lights) {
+    if (count == wanted_count && lights == wanted_lights) return;
+    if (count != wanted_count) {
+        for (gl::Texture& bound : bounds) bound = gl::make_texture(GL_RGBA32F, wanted_count.x, wanted_count.y);
+        bounds_framebuffer = gl::make_framebuffer({bounds[0].id(), bounds[1].id(), bounds[2].id(), bounds[3].id()}, 0);
     }
-    if (count != tile_count_ || lights != answers_of_) {
-        answers_ = gl::make_texture(GL_R32UI, count.x, count.y * static_cast<int>(lights));
-        answers_framebuffer_ = gl::make_framebuffer(answers_.id(), 0);
-    }
-    tile_count_ = count;
-    answers_of_ = lights;
+    answers = gl::make_texture(GL_R32UI, wanted_count.x, wanted_count.y * static_cast<int>(wanted_lights));
+    answers_framebuffer = gl::make_framebuffer(answers.id(), 0);
+    count = wanted_count;
+    lights = wanted_lights;
 }
 
-std::vector<Shown> ShadowQuery::look(int step, const Camera& camera, const FrameTarget& target,
+std::vector<Shown> ShadowQuery::look(size_t index, const Camera& camera, const FrameTarget& target,
                                      std::span<const ShadowQuestion> questions, const std::vector<TurnedBox>& casters) {
-    reserve(target, questions.size());
+    const auto [side, step] = kLooks[index];
+    Tiles& tiles = tiles_[index];
+    tiles.reserve((glm::ivec2(target.width, target.height) + side - 1) / side, questions.size());
     gl::Disable(GL_DEPTH_TEST);
     gl::BindVertexArray(no_vertices_.id());
     gl::BindTextureUnit(4, target.planes.id());
     gl::BindTextureUnit(5, target.materials.id());
     for (const gl::Program* program : {&tiles_program_, &query_program_}) {
         set_ray_uniforms(*program, camera, target);
+        gl::set_uniform(*program, "side_px", side);
         gl::set_uniform(*program, "step_px", step);
     }
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, bounds_framebuffer_.id());
-    gl::Viewport(0, 0, tile_count_.x, tile_count_.y);
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, tiles.bounds_framebuffer.id());
+    gl::Viewport(0, 0, tiles.count.x, tiles.count.y);
     gl::UseProgram(tiles_program_.id());
     gl::DrawArrays(GL_TRIANGLES, 0, 3);
 
-    for (GLuint i = 0; i < bounds_.size(); ++i) gl::BindTextureUnit(i, bounds_[i].id());
+    for (GLuint i = 0; i < tiles.bounds.size(); ++i) gl::BindTextureUnit(i, tiles.bounds[i].id());
     gl::set_uniform(query_program_, "view_back", glm::vec3(camera.basis.back));
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, answers_framebuffer_.id());
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, tiles.answers_framebuffer.id());
     gl::UseProgram(query_program_.id());
     for (size_t i = 0; i < questions.size(); ++i) {
         auto [boxes, nearest] = asked_boxes(questions[i], casters, camera.eye);
-        const int first_row = static_cast<int>(i) * tile_count_.y;
+        const int first_row = static_cast<int>(i) * tiles.count.y;
         set_light_uniforms(query_program_, questions[i], camera.eye, nearest, boxes.size());
         gl::set_uniform(query_program_, "first_row", first_row);
         // What isn't looked at one by one may be anywhere.
@@ -153,17 +155,17 @@ std::vector<Shown> ShadowQuery::look(int step, const Camera& camera, const Frame
         boxes.resize(kMostCasterBoxes);
         const gl::Buffer buffer = gl::make_buffer(std::as_bytes(std::span(boxes)));
         gl::BindBufferBase(GL_UNIFORM_BUFFER, 0, buffer.id());
-        gl::Viewport(0, first_row, tile_count_.x, tile_count_.y);
+        gl::Viewport(0, first_row, tiles.count.x, tiles.count.y);
         gl::DrawArrays(GL_TRIANGLES, 0, 3);
     }
 
-    const size_t tiles = static_cast<size_t>(tile_count_.x) * tile_count_.y;
-    std::vector<uint32_t> found(tiles * questions.size());
-    gl::GetTextureImage(answers_.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+    const ptrdiff_t tiles_each = static_cast<ptrdiff_t>(tiles.count.x) * tiles.count.y;
+    std::vector<uint32_t> found(tiles_each * questions.size());
+    gl::GetTextureImage(tiles.answers.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
                         static_cast<GLsizei>(found.size() * sizeof(uint32_t)), found.data());
     std::vector<Shown> answers;
-    for (auto first = found.begin(); first != found.end(); first += static_cast<ptrdiff_t>(tiles)) {
-        const uint32_t most = *std::max_element(first, first + static_cast<ptrdiff_t>(tiles));
+    for (auto first = found.begin(); first != found.end(); first += tiles_each) {
+        const uint32_t most = *std::max_element(first, first + tiles_each);
         answers.push_back(most == 0 ? Shown::nothing : most == 1 ? Shown::light : Shown::shadow);
     }
     return answers;
@@ -180,7 +182,7 @@ std::vector<Shown> ShadowQuery::ask(const GpuScene& scene, const SceneState& sta
     std::vector<TurnedBox> casters;
     for (const CasterBox& box : boxes_) casters.push_back(box_at(box, state));
 
-    for (const int step : {kFirstStep, 1}) {
+    for (size_t index = 0; index < kLooks.size(); ++index) {
         std::vector<size_t> open;
         for (size_t i = 0; i < answers.size(); ++i) {
             if (answers[i] != Shown::shadow) open.push_back(i);
@@ -189,7 +191,7 @@ std::vector<Shown> ShadowQuery::ask(const GpuScene& scene, const SceneState& sta
             const size_t count = std::min(kLightsAtOnce, open.size() - first);
             std::vector<ShadowQuestion> some;
             for (size_t i = 0; i < count; ++i) some.push_back(questions[open[first + i]]);
-            const std::vector<Shown> found = look(step, state.camera, target, some, casters);
+            const std::vector<Shown> found = look(index, state.camera, target, some, casters);
             for (size_t i = 0; i < count; ++i) answers[open[first + i]] = found[i];
         }
     }

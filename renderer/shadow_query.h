@@ -15,7 +15,7 @@
 // or more (caster_boxes.h), so that what is exact of the rays is rough of the casters.
 //
 // Bounds of the points and normals of 8 × 8 pixels come first, and tell most tiles that a light doesn't reach; then each pixel of the
-// others. A look at each 16th pixel goes before: most lights that throw a shadow are found there. The answer is waited for.
+// others. Looks at each 256th and each 16th pixel go before: most lights that throw a shadow are found there. The answer is waited for.
 #pragma once
 
 #include <array>
@@ -57,22 +57,28 @@ class ShadowQuery {
                            std::span<const ShadowQuestion> questions);
 
   private:
-    void reserve(const FrameTarget& target, size_t lights);
-    /// At each step-th pixel each way.
-    std::vector<Shown> look(int step, const Camera& camera, const FrameTarget& target,
+    /// What a look finds, tile by tile.
+    struct Tiles {
+        glm::ivec2 count{0};
+        /// Lowest and highest point and normal.
+        std::array<gl::Texture, 4> bounds;
+        gl::Framebuffer bounds_framebuffer;
+        /// A number a tile and light, of so many lights.
+        gl::Texture answers;
+        gl::Framebuffer answers_framebuffer;
+        size_t lights = 0;
+
+        void reserve(const glm::ivec2& wanted_count, size_t wanted_lights);
+    };
+
+    /// The index-th of kLooks.
+    std::vector<Shown> look(size_t index, const Camera& camera, const FrameTarget& target,
                             std::span<const ShadowQuestion> questions, const std::vector<TurnedBox>& casters);
 
     gl::Program tiles_program_;
     gl::Program query_program_;
     gl::VertexArray no_vertices_;
-    glm::ivec2 tile_count_{0};
-    /// Of tiles of pixels: lowest and highest point and normal.
-    std::array<gl::Texture, 4> bounds_;
-    gl::Framebuffer bounds_framebuffer_;
-    /// A number a tile and light, of so many lights.
-    gl::Texture answers_;
-    gl::Framebuffer answers_framebuffer_;
-    size_t answers_of_ = 0;
+    std::array<Tiles, 3> tiles_;
     /// Of the scene with this serial.
     std::vector<CasterBox> boxes_;
     uint64_t boxes_of_ = 0;

@@ -1,4 +1,4 @@
-// What a light does to the surfaces that each tile of 8 × 8 pixels has stored: reaches none of them, 0; lights some, 1; may shade one,
+// What a light does to the surfaces that each tile of pixels has stored: reaches none of them, 0; lights some, 1; may shade one,
 // 2 (shadow_query.h). surface_stored.glsl goes before.
 
 layout(binding = 0) uniform sampler2D tile_point_low;
@@ -6,7 +6,8 @@ layout(binding = 1) uniform sampler2D tile_point_high;
 layout(binding = 2) uniform sampler2D tile_normal_low;
 layout(binding = 3) uniform sampler2D tile_normal_high;
 
-// Pixels from one that is looked at to the next: 1, 2, 4 or 8.
+// Pixels of a tile's side, and from one that is looked at to the next.
+uniform int side_px;
 uniform int step_px;
 // Where the light's answers begin.
 uniform int first_row;
@@ -51,7 +52,6 @@ layout(std140, binding = 0) uniform Boxes { Box boxes[128]; };
 
 out uint answer;
 
-const int kSide = 8;
 // Roundings, of a direction's cosine and of a place's distance.
 const float kRounding = 1e-6;
 
@@ -134,12 +134,12 @@ void main() {
     bool lights = may_light(texelFetch(tile_point_low, tile, 0).xyz, texelFetch(tile_point_high, tile, 0).xyz,
                             texelFetch(tile_normal_low, tile, 0).xyz, texelFetch(tile_normal_high, tile, 0).xyz);
     ivec2 end = textureSize(planes, 0) - 1;
-    int per_side = kSide / step_px;
+    int per_side = side_px / step_px;
     // A loop that isn't entered costs nothing, where a branch around one may be flattened.
     int pixels = lights ? per_side * per_side : 0;
     answer = 0u;
     for (int k = 0; k < pixels && answer < 2u; ++k) {
-        ivec2 pixel = kSide * tile + step_px * ivec2(k % per_side, k / per_side);
+        ivec2 pixel = side_px * tile + step_px * ivec2(k % per_side, k / per_side);
         answer = max(answer, answer_of(surface_at(min(pixel, end))));
     }
 }
