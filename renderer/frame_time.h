@@ -12,6 +12,8 @@ struct FrameTime {
     gl::PassTime prepare;
     /// What the camera sees nearest, where that is stored before it is lit.
     gl::PassTime surfaces;
+    /// What lights shade of it.
+    gl::PassTime query;
     gl::PassTime lighting;
     /// What the next frame needs.
     gl::PassTime need;
@@ -19,9 +21,11 @@ struct FrameTime {
     double fit_ms = 0;
 
     double cpu_ms() const {
-        return depth.cpu_ms + prepare.cpu_ms + surfaces.cpu_ms + lighting.cpu_ms + need.cpu_ms + fit_ms;
+        return depth.cpu_ms + prepare.cpu_ms + surfaces.cpu_ms + query.cpu_ms + lighting.cpu_ms + need.cpu_ms + fit_ms;
     }
-    double gpu_ms() const { return depth.gpu_ms + prepare.gpu_ms + surfaces.gpu_ms + lighting.gpu_ms + need.gpu_ms; }
+    double gpu_ms() const {
+        return depth.gpu_ms + prepare.gpu_ms + surfaces.gpu_ms + query.gpu_ms + lighting.gpu_ms + need.gpu_ms;
+    }
 };
 
 }  // namespace stairstep

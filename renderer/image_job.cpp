@@ -215,6 +215,10 @@ ordered_json run_image_job(const ImageJob& job) {
     const double aspect = static_cast<double>(job.width) / job.height;
     const Staged staged = stage(job, aspect);
     const SceneState& state = staged.state;
+    if (job.truth && job.technique == "pcss" && !state.more_lights.empty()) {
+        throw InputError("--truth", job.scene + " has several lights, and rays are traced to one",
+                         "leave it out, or use another technique or scene");
+    }
     const double radius = staged.radius;
     const double distance = distance_along_view(state.camera, staged.casters.centre());
     const double pixel = pixel_footprint(state.camera, std::max(distance, state.camera.near), job.height);

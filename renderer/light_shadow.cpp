@@ -17,6 +17,9 @@ double light_plane_radius(double radius, const Light& light, const glm::dvec3& m
     return radius / std::max(depth_along(light, middle), 1e-9);
 }
 
+/// Texels beyond its radius that a filter may look at: the one that its rim touches, and half of one that its own is at least.
+constexpr double kMarginTexels = 2;
+
 TechniqueSettings technique_settings(const ShadowSettings& settings) {
     TechniqueSettings technique = settings.technique;
     technique.skip_even_texels = settings.skips.even_texels;
@@ -54,7 +57,9 @@ LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& sett
     if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
 }
 
-ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px) {
+ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px,
+                                   bool again) {
+    if (!again) was_settled_ = choice_.texel > 0;
     const double filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
     const LightFrustum frustum = fit_light_frustum(
         scene.extents, state, aspect, settings_.fit,
@@ -63,10 +68,12 @@ ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& stat
     if (settings_.fixed_size) return map_of_size(frustum, *settings_.fixed_size);
     const int largest = settings_.largest_size;
     if (meter_) {
-        if (const std::optional<TileNeeds> needs = meter_->take())
-            last_need_ = needed_texel(*needs, settings_.statistic);
-        // A frame whose pixels are known already needs what it needed.
-        if (last_need_) choice_ = choose_texel(choice_, *last_need_, settings_.patience);
+        if (!(again && was_settled_)) {
+            if (const std::optional<TileNeeds> needs = meter_->take())
+                last_need_ = needed_texel(*needs, settings_.statistic);
+            // A frame whose pixels are known already needs what it needed.
+            if (last_need_) choice_ = choose_texel(choice_, *last_need_, settings_.patience);
+        }
         const double longest = std::max(frustum.extent().x, frustum.extent().y);
         const double texel = choice_.texel > 0 ? choice_.texel : texel_on_ladder(longest / kFirstGuessTexels);
         return map_of_texels(frustum, texel, largest, ShadowMapShape::Limit::law);
@@ -80,7 +87,29 @@ ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& stat
     return map_by_law(frustum, {settings_.technique.law_slope, filter_radius, 0, pixel, largest});
 }
 
-void LightShadow::update_map(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
+std::optional<ShadowQuestion> LightShadow::question(const ShadowMapShape& shape, const SceneState& state,
+                                                    const LightPart& part) {
+    const Skips& skips = settings_.skips;
+    const LightFrustum& frustum = shape.frustum;
+    if (!skips.hidden_shadows || !technique_->reads_map()) return std::nullopt;
+    if (skips.unseen_shadows && frustum.shadowless) return std::nullopt;
+    if (!query_patience_.is_due()) return std::nullopt;
+    ShadowQuestion question{.light = state.light, .frustum = frustum, .slice = part.slice};
+    // A prefiltered map is looked at through its mipmaps, a warped one through texels of many sizes.
+    question.looks_anywhere = frustum.warp.warps() || technique_->lookups(map_).prefiltered;
+    question.reach = kMarginTexels * std::max(shape.texel().x, shape.texel().y);
+    if (technique_->measures_need()) {
+        // Of the disk over the box, and of the texels that a level of the map may be coarser by.
+        const double beyond = 1.2 + 0.5 / settings_.technique.law_slope;
+        question.softness =
+            beyond * (state.light.kind == Light::Kind::spot ? state.light.half_side : state.light.half_tangent());
+    } else {
+        question.reach += technique_->reach(frustum, light_plane_radius(settings_.radius, state.light, middle_));
+    }
+    return question;
+}
+
+void LightShadow::update_map(const ShadowMapShape& shape, Shown shown, const GpuScene& scene, const SceneState& state,
                              gl::PassTimer& timer, FrameTime& time) {
     const int side = std::max(shape.width, shape.height);
     if (side > map_.capacity) {
@@ -89,7 +118,7 @@ void LightShadow::update_map(const ShadowMapShape& shape, const GpuScene& scene,
     map_.shape = shape;
     map_.filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
     const Skips& skips = settings_.skips;
-    if (!technique_->reads_map() || (skips.unseen_shadows && shape.frustum.shadowless)) return;
+    if (!technique_->reads_map() || shown != Shown::shadow) return;
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     timer.start();
     const bool drawn =
@@ -126,16 +155,24 @@ void LightShadow::keep(const Seen& seen, const FrameTarget& target, LightPart& p
     kept_is_filled_ = true;
 }
 
-void LightShadow::light(const GpuScene& scene, const SceneState& state, const DrawList& surfaces, bool stored,
-                        const FrameTarget& target, LightPart part, LightingPass& pass, gl::PassTimer& timer,
-                        FrameTime& time) {
+void LightShadow::light(Shown shown, const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
+                        bool stored, const FrameTarget& target, LightPart part, LightingPass& pass,
+                        gl::PassTimer& timer, FrameTime& time) {
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     part.need = meter_ && target.samples == 1;
-    if (settings_.skips.unseen_shadows && map_.shape.frustum.shadowless && technique_->reads_map()) {
+    if (shown != Shown::shadow) {
         part.visibility = LightPart::Visibility::all_lit;
+        // No pixel needs a texel. What comes after isn't the same as what was before.
+        if (part.need) last_need_ = INFINITY;
+        part.need = measured_ = false;
+        seen_.reset();
+        kept_is_filled_ = false;
+        // The first light brings the sky, and each the visibility where nothing is.
+        if (shown == Shown::nothing && part.index > 0 && target.show == Show::colour) return;
     } else if (settings_.skips.unchanged_pixels && stored && technique_->reads_map()) {
         keep({scene.serial, target.serial, state.camera, state.light, state.movers, map_.shape}, target, part);
     }
+    measured_ = part.need;
     timer.start();
     if (stored) {
         pass.light_stored(scene, state, *technique_, map_, target, part);

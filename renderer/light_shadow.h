@@ -8,6 +8,7 @@
 #include "renderer/frame_time.h"
 #include "renderer/need_meter.h"
 #include "renderer/shadow_map_keeper.h"
+#include "renderer/shadow_query.h"
 #include "renderer/shadow_settings.h"
 #include "renderer/view_passes.h"
 
@@ -20,21 +21,27 @@ class LightShadow {
     LightShadow(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                 const SceneState& first, double aspect, const glm::dvec3& middle);
 
-    /// The map that this frame takes.
-    ShadowMapShape choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px);
+    /// The map that this frame takes. A frame that is drawn again, until sizes settle, changes only those that hadn't before.
+    ShadowMapShape choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px, bool again);
 
-    /// Makes a map of this shape hold the frame's casters, as far as anything visible can tell.
-    void update_map(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state, gl::PassTimer& timer,
-                    FrameTime& time);
+    /// What to ask of the picture before this shape's map is drawn; nullopt where it is known, or was asked lately. What it shows
+    /// is then to be told.
+    std::optional<ShadowQuestion> question(const ShadowMapShape& shape, const SceneState& state, const LightPart& part);
+    void answered(Shown shown) { query_patience_.answered(shown); }
 
-    /// Lights the picture: `part` says which light and slice this is. Surfaces that are stored already aren't drawn again.
-    void light(const GpuScene& scene, const SceneState& state, const DrawList& surfaces, bool stored,
+    /// Makes a map of this shape hold the frame's casters, as far as anything visible can tell: nothing where no shadow is shown.
+    void update_map(const ShadowMapShape& shape, Shown shown, const GpuScene& scene, const SceneState& state,
+                    gl::PassTimer& timer, FrameTime& time);
+
+    /// Lights the picture with what it shows of the light: `part` says which light and slice this is. Surfaces that are stored already
+    /// aren't drawn again.
+    void light(Shown shown, const GpuScene& scene, const SceneState& state, const DrawList& surfaces, bool stored,
                const FrameTarget& target, LightPart part, LightingPass& pass, gl::PassTimer& timer, FrameTime& time);
 
     const ShadowMap& map() const { return map_; }
     const ShadowTechnique& technique() const { return *technique_; }
-    /// Whether its size follows what pixels need, and no frame has said yet what that is.
-    bool is_unsettled() const { return meter_ && choice_.texel == 0; }
+    /// Whether its size follows what pixels need, no frame before the last has said what that is, and the last did.
+    bool settles() const { return meter_ && !was_settled_ && measured_; }
     /// Triangles of the last depth pass.
     size_t caster_triangles() const { return keeper_.triangles(); }
 
@@ -63,6 +70,11 @@ class LightShadow {
     TexelChoice choice_;
     /// What the last measured frame needed.
     std::optional<double> last_need_;
+    /// Before the last frame that was drawn for the first time.
+    bool was_settled_ = false;
+    /// Whether the last frame's needs are yet to be taken.
+    bool measured_ = false;
+    QueryPatience query_patience_;
 
     std::optional<Seen> seen_;
     /// Visibility of the last frame, once two were the same.

@@ -85,8 +85,25 @@ void ShadowRenderer::match_lights(const GpuScene& scene, const SceneState& state
     }
 }
 
-FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, const GpuScene& scene, const SceneState& state,
-                                    const FrameTarget& target, gl::PassTimer& timer) {
+void ShadowRenderer::ask(std::vector<Turn>& turns, const GpuScene& scene, const SceneState& state,
+                         const FrameTarget& target) {
+    std::vector<ShadowQuestion> questions;
+    std::vector<size_t> asking;
+    for (size_t i = 0; i < turns.size(); ++i) {
+        if (const auto question = shadows_[i].question(turns[i].shape, turns[i].state, turns[i].part)) {
+            questions.push_back(*question);
+            asking.push_back(i);
+        }
+    }
+    const std::vector<Shown> answers = query_.ask(scene, state, target, questions);
+    for (size_t i = 0; i < answers.size(); ++i) {
+        turns[asking[i]].shown = answers[i];
+        shadows_[asking[i]].answered(answers[i]);
+    }
+}
+
+FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool again, const GpuScene& scene,
+                                    const SceneState& state, const FrameTarget& target, gl::PassTimer& timer) {
     const double aspect = static_cast<double>(target.width) / target.height;
     const size_t slices = settings_.cascades.count;
     const size_t lights = 1 + state.more_lights.size();
@@ -96,44 +113,50 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, const Gpu
 
     match_lights(scene, state, aspect);
     DrawList surfaces;
-    std::vector<double> borders;
+    std::vector<Turn> turns(shadows_.size());
     time.fit_ms += timed_ms([&] {
         const std::vector<glm::dvec4> view =
             settings_.skips.unseen_triangles ? view_planes(state.camera, aspect) : std::vector<glm::dvec4>{};
         const bool back_faces = !settings_.skips.back_faces;
         surfaces = settings_.skips.overdraw ? draw_list_from(along_view(state.camera), scene, state, view, back_faces)
                                             : draw_list(scene, state, view, Which::all, back_faces);
-        if (slices == 1) return;
-        const glm::dvec2 range = visible_range(scene, state, aspect);
-        borders = split_distances(range.x, range.y, settings_.cascades);
+        std::vector<double> borders;
+        if (slices > 1) {
+            const glm::dvec2 range = visible_range(scene, state, aspect);
+            borders = split_distances(range.x, range.y, settings_.cascades);
+        }
+        for (size_t i = 0; i < turns.size(); ++i) {
+            auto& [own, part, shape, shown] = turns[i];
+            const size_t slice = i % slices;
+            part.index = i / slices;
+            part.count = lights;
+            glm::dvec2 range;
+            if (slices > 1) {
+                range = {borders[slice], borders[slice + 1]};
+                // Roundings at both ends of the view are the first's and the last's.
+                part.slice = glm::dvec2(slice == 0 ? -2 : range.x, slice + 1 == slices ? 1e30 : range.y);
+            }
+            own = seen_by(state, part.index, slices > 1 ? &range : nullptr);
+            shape = i == 0 && first_shape ? *first_shape : shadows_[i].choose(scene, own, aspect, target.height, again);
+            if (settings_.skips.unseen_shadows && shape.frustum.shadowless) shown = Shown::light;
+        }
     });
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     if (stored) {
         timer.start();
         surface_pass_.draw(scene, state, surfaces, target);
         time.surfaces = timer.stop();
+        timer.start();
+        ask(turns, scene, state, target);
+        time.query = timer.stop();
     }
-    for (size_t i = 0; i < shadows_.size(); ++i) {
-        const size_t slice = i % slices;
-        LightPart part;
-        part.index = i / slices;
-        part.count = lights;
-        glm::dvec2 range;
-        if (slices > 1) {
-            range = {borders[slice], borders[slice + 1]};
-            // Roundings at both ends of the view are the first's and the last's.
-            part.slice = glm::dvec2(slice == 0 ? -2 : range.x, slice + 1 == slices ? 1e30 : range.y);
-        }
-        const SceneState own = seen_by(state, part.index, slices > 1 ? &range : nullptr);
-        ShadowMapShape shape;
-        time.fit_ms += timed_ms([&] {
-            shape = i == 0 && first_shape ? *first_shape : shadows_[i].choose(scene, own, aspect, target.height);
-        });
-        shadows_[i].update_map(shape, scene, own, timer, time);
+    for (size_t i = 0; i < turns.size(); ++i) {
+        const auto& [own, part, shape, shown] = turns[i];
+        shadows_[i].update_map(shape, shown, scene, own, timer, time);
         // The picture is the whole camera's.
         SceneState lit = own;
         lit.camera = state.camera;
-        shadows_[i].light(scene, lit, surfaces, stored, target, part, lighting_pass_, timer, time);
+        shadows_[i].light(shown, scene, lit, surfaces, stored, target, part, lighting_pass_, timer, time);
     }
     gl::throw_on_error("drawing a frame");
     return time;
@@ -141,7 +164,7 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, const Gpu
 
 FrameTime ShadowRenderer::draw_with(const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
                                     const FrameTarget& target, gl::PassTimer& timer) {
-    return draw_once(&shape, scene, state, target, timer);
+    return draw_once(&shape, false, scene, state, target, timer);
 }
 
 FrameTime ShadowRenderer::draw(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
@@ -152,12 +175,12 @@ FrameTime ShadowRenderer::draw(const GpuScene& scene, const SceneState& state, c
         for (const LightShadow& shadow : shadows_) list.push_back(shadow.map().shape.texel());
         return list;
     };
+    FrameTime time = draw_once(nullptr, false, scene, state, target, timer);
     const bool settles = target.samples == 1 && std::any_of(shadows_.begin(), shadows_.end(),
-                                                            [](const LightShadow& one) { return one.is_unsettled(); });
-    FrameTime time = draw_once(nullptr, scene, state, target, timer);
+                                                            [](const LightShadow& one) { return one.settles(); });
     for (int i = 1; settles && i < kMostSettlingFrames; ++i) {
         const std::vector<glm::dvec2> before = texels();
-        time = draw_once(nullptr, scene, state, target, timer);
+        time = draw_once(nullptr, true, scene, state, target, timer);
         if (texels() == before) break;
     }
     return time;

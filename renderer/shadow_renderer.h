@@ -32,7 +32,18 @@ class ShadowRenderer {
 
   private:
     void match_lights(const GpuScene& scene, const SceneState& state, double aspect);
-    FrameTime draw_once(const ShadowMapShape* first_shape, const GpuScene& scene, const SceneState& state,
+    /// One light's part of a frame, or that of one slice of it.
+    struct Turn {
+        /// As the light sees it.
+        SceneState state;
+        LightPart part;
+        ShadowMapShape shape;
+        Shown shown = Shown::shadow;
+    };
+    /// Finds out what the stored surfaces show of each light.
+    void ask(std::vector<Turn>& turns, const GpuScene& scene, const SceneState& state, const FrameTarget& target);
+    /// `again`: of a frame that was drawn before, to settle sizes.
+    FrameTime draw_once(const ShadowMapShape* first_shape, bool again, const GpuScene& scene, const SceneState& state,
                         const FrameTarget& target, gl::PassTimer& timer);
 
     TechniqueEntry entry_;
@@ -42,6 +53,7 @@ class ShadowRenderer {
     glm::dvec3 middle_;
     SurfacePass surface_pass_;
     LightingPass lighting_pass_;
+    ShadowQuery query_;
     std::vector<LightShadow> shadows_;
 };
 

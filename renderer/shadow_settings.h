@@ -25,6 +25,8 @@ struct Skips {
     bool unseen_triangles = true;
     /// Maps of lights whose shadows nothing visible can receive.
     bool unseen_shadows = true;
+    /// Maps and filters of lights whose shadows no pixel shows, and lights that no pixel's surface sees.
+    bool hidden_shadows = true;
     /// Depth passes where nothing changed, and casters that stand still where only others move.
     bool unchanged_maps = true;
     /// Filters where the last frame had the same pixels.
@@ -42,13 +44,10 @@ struct SkipName {
 };
 
 inline constexpr SkipName kSkips[]{
-    {"hidden-surfaces", &Skips::hidden_surfaces},
-    {"overdraw", &Skips::overdraw},
-    {"back-faces", &Skips::back_faces},
-    {"unseen-triangles", &Skips::unseen_triangles},
-    {"unseen-shadows", &Skips::unseen_shadows},
-    {"unchanged-maps", &Skips::unchanged_maps},
-    {"unchanged-pixels", &Skips::unchanged_pixels},
+    {"hidden-surfaces", &Skips::hidden_surfaces}, {"overdraw", &Skips::overdraw},
+    {"back-faces", &Skips::back_faces},           {"unseen-triangles", &Skips::unseen_triangles},
+    {"unseen-shadows", &Skips::unseen_shadows},   {"hidden-shadows", &Skips::hidden_shadows},
+    {"unchanged-maps", &Skips::unchanged_maps},   {"unchanged-pixels", &Skips::unchanged_pixels},
     {"even-texels", &Skips::even_texels},
 };
 

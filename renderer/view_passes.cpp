@@ -108,18 +108,6 @@ void set_receiver_uniforms(const gl::Program& program, const ShadowMap& map, con
     gl::set_uniform(program, "pixel_area", static_cast<float>(pixel * pixel));
 }
 
-/// What shaders/surface_stored.glsl needs to know where pixels look.
-void set_ray_uniforms(const gl::Program& program, const Camera& camera, const FrameTarget& target) {
-    const double pixel = pixel_footprint(camera, 1, target.height);
-    const auto& [right, up, back] = camera.basis;
-    gl::set_uniform(
-        program, "ray_corner",
-        glm::vec3(-back -
-                  0.5 * pixel * (static_cast<double>(target.width) * right + static_cast<double>(target.height) * up)));
-    gl::set_uniform(program, "ray_right", glm::vec3(pixel * right));
-    gl::set_uniform(program, "ray_up", glm::vec3(pixel * up));
-}
-
 void set_lighting_uniforms(const gl::Program& program, const GpuScene& scene, const SceneState& state,
                            const LightPart& part) {
     gl::set_uniform(program, "first_light", part.index == 0 ? 1 : 0);
@@ -190,6 +178,17 @@ void set_blending(const LightPart& part) {
 }
 
 }  // namespace
+
+void set_ray_uniforms(const gl::Program& program, const Camera& camera, const FrameTarget& target) {
+    const double pixel = pixel_footprint(camera, 1, target.height);
+    const auto& [right, up, back] = camera.basis;
+    gl::set_uniform(
+        program, "ray_corner",
+        glm::vec3(-back -
+                  0.5 * pixel * (static_cast<double>(target.width) * right + static_cast<double>(target.height) * up)));
+    gl::set_uniform(program, "ray_right", glm::vec3(pixel * right));
+    gl::set_uniform(program, "ray_up", glm::vec3(pixel * up));
+}
 
 SurfacePass::SurfacePass() : programs_{make_surface_program(false), make_surface_program(true)} {}
 

@@ -17,6 +17,9 @@
 
 namespace stairstep {
 
+/// What shaders/surface_stored.glsl needs to know where pixels look.
+void set_ray_uniforms(const gl::Program& program, const Camera& camera, const FrameTarget& target);
+
 class SurfacePass {
   public:
     /// Throws FailureError.

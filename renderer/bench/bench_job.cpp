@@ -91,6 +91,10 @@ std::vector<Entry> load_scenes(const BenchJob& job) {
     std::vector<Entry> entries;
     for (const std::string& scene : job.scenes) {
         AnimatedScene animated = load(scene);
+        if (!animated.state(Motion::still, 0).more_lights.empty()) {
+            throw InputError("--scenes", "\"" + scene + "\" has several lights, and truths are of one",
+                             "leave it out; stairstep-render image draws it");
+        }
         const double radius = radius_of(job, animated);
         entries.push_back({label_of(scene, entries), std::move(animated), radius});
     }

@@ -88,7 +88,7 @@ std::vector<Configuration> ablations() {
     }
     for (const Configuration& whole : {auto_pcf(), auto_pcss()}) {
         for (const std::string drawn :
-             {"hidden-surfaces", "unseen-triangles", "unseen-shadows", "even-texels", "all"}) {
+             {"hidden-surfaces", "unseen-triangles", "unseen-shadows", "hidden-shadows", "even-texels", "all"}) {
             Configuration one = whole;
             one.no_skip = drawn == "all" ? drawn : drawn + "," + kDrawsUnchanged;
             list.push_back(one);

@@ -17,6 +17,7 @@ SceneEntry city_scene();
 SceneEntry clutter_scene();
 SceneEntry cornell_scene();
 SceneEntry fence_scene();
+SceneEntry rooms_scene();
 
 namespace {
 
@@ -34,8 +35,8 @@ std::string names() {
 }  // namespace
 
 std::span<const SceneEntry> scenes() {
-    static const std::array list{crane_scene(),   colonnade_scene(), city_scene(),
-                                 clutter_scene(), cornell_scene(),   fence_scene()};
+    static const std::array list{crane_scene(),   colonnade_scene(), city_scene(), clutter_scene(),
+                                 cornell_scene(), fence_scene(),     rooms_scene()};
     return list;
 }
 

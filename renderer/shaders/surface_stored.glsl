@@ -1,4 +1,4 @@
-// The surface at this pixel, as surface.frag has stored it. surface.glsl goes before.
+// The surface at a pixel, as surface.frag has stored it. surface.glsl goes before.
 
 layout(binding = 4) uniform sampler2D planes;
 layout(binding = 5) uniform usampler2D materials;
@@ -8,13 +8,15 @@ uniform vec3 ray_corner;
 uniform vec3 ray_right;
 uniform vec3 ray_up;
 
-Surface surface_here() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+Surface surface_at(ivec2 pixel) {
     vec4 plane = texelFetch(planes, pixel, 0);
-    vec3 ray = ray_corner + gl_FragCoord.x * ray_right + gl_FragCoord.y * ray_up;
+    vec2 centre = vec2(pixel) + 0.5;
+    vec3 ray = ray_corner + centre.x * ray_right + centre.y * ray_up;
     uvec2 material = texelFetch(materials, pixel, 0).rg;
     // A plane seen from its very edge is met far away, not nowhere.
     float along = plane.xyz == vec3(0) ? 1 : plane.w / min(dot(plane.xyz, ray), -1e-7);
     return Surface(along * ray, plane.xyz, unpacked_normal(material), unpacked_base_colour(material),
                    (material.y >> 30) != 0u);
 }
+
+Surface surface_here() { return surface_at(ivec2(gl_FragCoord.xy)); }

@@ -236,7 +236,7 @@ TEST_F(Encoded, WithoutTheStepThereIsAcne) {
         stress::clear_pixels(condition.stage, stress::TruthOf::point, 0, 2 * texel, truth, kWidth, kHeight);
     const auto acne = [&](DepthFormat taken_for) {
         map.memory.format = taken_for;
-        surfaces.draw(gpu, state, draw_list(gpu, state, {}, Which::all), target);
+        surfaces.draw(gpu, state, draw_list(gpu, state, {}, Which::all, true), target);
         lighting.light_stored(gpu, state, *technique, map, target, {});
         const std::vector<float> values = read_visibility(target);
         int seen = 0;
