@@ -307,20 +307,21 @@ LightFrustum fit_light_frustum(const SceneExtents& extents, const SceneState& st
     frustum.high = seen.high + least;
 
     for (const glm::dvec4& plane : side_planes(frustum, look_around)) planes.push_back(plane);
-    frustum.view_distance = INFINITY;
-    double farthest_view = 0;
+    frustum.view_range = {INFINITY, 0};
+    double& nearest_view = frustum.view_range.x;
+    double& farthest_view = frustum.view_range.y;
     for (size_t i = 0; i < extents.parts.size(); ++i) {
         for (const glm::dvec3& corner :
              cut_corners(extents.parts[i].meshes, SceneExtents::placement(state, i), planes)) {
             const double distance = glm::dot(state.camera.eye - corner, state.camera.basis.back);
-            frustum.view_distance = std::min(frustum.view_distance, distance);
+            nearest_view = std::min(nearest_view, distance);
             farthest_view = std::max(farthest_view, distance);
         }
     }
-    if (warp_angle > 0 && !frustum.shadowless && std::isfinite(frustum.view_distance)) {
-        const double nearest_view = std::max(frustum.view_distance, state.camera.near);
+    if (warp_angle > 0 && !frustum.shadowless && std::isfinite(nearest_view)) {
+        const double nearest = std::max(nearest_view, state.camera.near);
         frustum.warp = lispsm_warp(seen_body(receiver_plane, axis, look_around, seen),
-                                   {warp_angle, nearest_view, std::max(farthest_view, nearest_view),
+                                   {warp_angle, nearest, std::max(farthest_view, nearest),
                                     glm::dot(frustum.basis.right, state.camera.eye - frustum.position), look_around},
                                    least);
     }

@@ -37,8 +37,9 @@ struct LightFrustum {
     bool shadowless = false;
     /// Depth of the visible receiver farthest along the light, as stored depths are, but above 1 beyond the map's end.
     double receiver_depth = 1;
-    /// Distance along the view of the nearest visible receiver that may be shadowed, world units; infinite for none.
-    double view_distance = 0;
+    /// Distances along the view of the nearest and the farthest visible receiver that may be shadowed, world units; infinite and 0
+    /// for none.
+    glm::dvec2 view_range{0};
     /// Of a directional light's map; basis.up is then along the view's direction.
     LightWarp warp;
 

@@ -57,14 +57,26 @@ LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& sett
     if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
 }
 
+LightFrustum LightShadow::fit(const GpuScene& scene, const SceneState& state, double aspect, double margin) const {
+    const double filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
+    return fit_light_frustum(
+        scene.extents, state, aspect, settings_.fit,
+        [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius) + margin; },
+        settings_.warp, settings_.depth);
+}
+
+glm::dvec2 LightShadow::shadowed_range(const GpuScene& scene, const SceneState& state, double aspect) const {
+    // A texel that a filter touches reaches beyond the caster at its middle.
+    const double texel = light_plane_radius(settings_.radius, state.light, middle_) / settings_.technique.law_slope;
+    const Camera& camera = state.camera;
+    const glm::dvec2 range = glm::clamp(fit(scene, state, aspect, texel).view_range, camera.near, camera.far);
+    return range.x < range.y ? range : glm::dvec2(camera.near, camera.far);
+}
+
 ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px,
                                    bool again) {
     if (!again) was_settled_ = choice_.texel > 0;
-    const double filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
-    const LightFrustum frustum = fit_light_frustum(
-        scene.extents, state, aspect, settings_.fit,
-        [&](const LightFrustum& unfitted) { return technique_->reach(unfitted, filter_radius); }, settings_.warp,
-        settings_.depth);
+    const LightFrustum frustum = fit(scene, state, aspect, 0);
     if (settings_.fixed_size) return map_of_size(frustum, *settings_.fixed_size);
     const int largest = settings_.largest_size;
     if (meter_) {
@@ -80,10 +92,11 @@ ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& stat
     }
     // What a pixel covers where shadows are nearest; in the light plane it can only look smaller.
     double pixel = 0;
-    if (std::isfinite(frustum.view_distance)) {
-        pixel = pixel_footprint(state.camera, std::max(frustum.view_distance, state.camera.near), height_px);
+    if (std::isfinite(frustum.view_range.x)) {
+        pixel = pixel_footprint(state.camera, std::max(frustum.view_range.x, state.camera.near), height_px);
         if (frustum.kind == Light::Kind::spot) pixel /= frustum.farthest;
     }
+    const double filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
     return map_by_law(frustum, {settings_.technique.law_slope, filter_radius, 0, pixel, largest});
 }
 

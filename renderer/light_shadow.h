@@ -21,6 +21,9 @@ class LightShadow {
     LightShadow(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                 const SceneState& first, double aspect, const glm::dvec3& middle);
 
+    /// Distances along the view between which all that may be shadowed lies; the camera's, where nothing is.
+    glm::dvec2 shadowed_range(const GpuScene& scene, const SceneState& state, double aspect) const;
+
     /// The map that this frame takes. A frame that is drawn again, until sizes settle, changes only those that hadn't before.
     ShadowMapShape choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px, bool again);
 
@@ -59,6 +62,8 @@ class LightShadow {
     };
 
     /// Decides whether this part's visibility is kept, and from when it can be read.
+    /// For filters that reach farther by a margin, light plane.
+    LightFrustum fit(const GpuScene& scene, const SceneState& state, double aspect, double margin) const;
     void keep(const Seen& seen, const FrameTarget& target, LightPart& part);
 
     ShadowSettings settings_;

@@ -13,21 +13,6 @@ const Light& light_of(const SceneState& state, size_t index) {
     return index == 0 ? state.light : state.more_lights[index - 1];
 }
 
-/// Distances along the view between which all that is visible lies.
-glm::dvec2 visible_range(const GpuScene& scene, const SceneState& state, double aspect) {
-    glm::dvec2 range(state.camera.far, state.camera.near);
-    const std::vector<glm::dvec4> planes = view_planes(state.camera, aspect);
-    for (size_t i = 0; i < scene.extents.parts.size(); ++i) {
-        for (const glm::dvec3& corner :
-             cut_corners(scene.extents.parts[i].meshes, SceneExtents::placement(state, i), planes)) {
-            const double depth = glm::dot(state.camera.eye - corner, state.camera.basis.back);
-            range = {std::min(range.x, depth), std::max(range.y, depth)};
-        }
-    }
-    range = glm::clamp(range, state.camera.near, state.camera.far);
-    return range.x < range.y ? range : glm::dvec2(state.camera.near, state.camera.far);
-}
-
 /// The state as one light sees it that lights a slice of the view, or all of it.
 SceneState seen_by(const SceneState& state, size_t light, const glm::dvec2* slice) {
     SceneState own = state;
@@ -121,19 +106,19 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool agai
         surfaces = settings_.skips.overdraw ? draw_list_from(along_view(state.camera), scene, state, view, back_faces)
                                             : draw_list(scene, state, view, Which::all, back_faces);
         std::vector<double> borders;
-        if (slices > 1) {
-            const glm::dvec2 range = visible_range(scene, state, aspect);
-            borders = split_distances(range.x, range.y, settings_.cascades);
-        }
         for (size_t i = 0; i < turns.size(); ++i) {
             auto& [own, part, shape, shown] = turns[i];
             const size_t slice = i % slices;
             part.index = i / slices;
+            if (slices > 1 && slice == 0) {
+                const glm::dvec2 range = shadows_[i].shadowed_range(scene, seen_by(state, part.index, nullptr), aspect);
+                borders = split_distances(range.x, range.y, settings_.cascades);
+            }
             part.count = lights;
             glm::dvec2 range;
             if (slices > 1) {
                 range = {borders[slice], borders[slice + 1]};
-                // Roundings at both ends of the view are the first's and the last's.
+                // Nearer and farther surfaces are the first's and the last's.
                 part.slice = glm::dvec2(slice == 0 ? -2 : range.x, slice + 1 == slices ? 1e30 : range.y);
             }
             own = seen_by(state, part.index, slices > 1 ? &range : nullptr);

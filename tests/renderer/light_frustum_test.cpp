@@ -115,7 +115,7 @@ TEST(LightFrustum, LeavesOutWhatCanShadeNothingVisible) {
     const LightFrustum frustum = fit(0.5);
     EXPECT_NEAR(frustum.extent().x, 2 * (5 / std::sqrt(3.0) + 0.5), 1e-3);
     EXPECT_NEAR(fit(1e3).extent().x, 42, 1e-3);
-    EXPECT_NEAR(frustum.view_distance, 3, 1e-9) << "the boxes' tops";
+    EXPECT_NEAR(frustum.view_range.x, 3, 1e-9) << "the boxes' tops";
 }
 
 // A thin wall seen from straight above, turned by some angle: the smallest map lies along it.
