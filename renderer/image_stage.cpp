@@ -1,7 +1,5 @@
 #include "renderer/image_stage.h"
 
-#include <algorithm>
-
 #include "renderer/scene_import.h"
 #include "renderer/scenes/scenes.h"
 #include "stimuli/error.h"
@@ -63,8 +61,7 @@ Staged stage_scene(const ImageJob& job, double aspect) {
 }  // namespace
 
 Staged stage(const ImageJob& job, double aspect) {
-    const bool named = std::ranges::find(scenes(), job.scene, &SceneEntry::name) != scenes().end();
-    return named ? stage_scene(job, aspect) : stage_model(job, aspect);
+    return scene_unless_file(job.scene) ? stage_scene(job, aspect) : stage_model(job, aspect);
 }
 
 }  // namespace stairstep

@@ -46,11 +46,16 @@ AnimatedScene scene_named(const std::string& name) {
     return entry->make();
 }
 
-AnimatedScene load_animated_scene(const std::string& name_or_path) {
-    if (const SceneEntry* entry = find(name_or_path)) return entry->make();
-    if (!std::filesystem::is_regular_file(name_or_path)) {
+const SceneEntry* scene_unless_file(const std::string& name_or_path) {
+    const SceneEntry* entry = find(name_or_path);
+    if (!entry && !std::filesystem::exists(name_or_path)) {
         throw InputError(name_or_path, "is neither a scene nor a file", "name a model, as truck.gltf, or " + names());
     }
+    return entry;
+}
+
+AnimatedScene load_animated_scene(const std::string& name_or_path) {
+    if (const SceneEntry* entry = scene_unless_file(name_or_path)) return entry->make();
     ImportedScene imported = import_scene(name_or_path);
     for (const std::string& warning : imported.warnings) warn(name_or_path.c_str(), warning.c_str());
     return animated_scene_from(std::move(imported), name_or_path);

@@ -25,6 +25,9 @@ std::span<const SceneEntry> scenes();
 /// Throws InputError that lists the names there are.
 AnimatedScene scene_named(const std::string& name);
 
+/// The one of this name; null for a file. Throws InputError for what is neither.
+const SceneEntry* scene_unless_file(const std::string& name_or_path);
+
 /// One of the list where the name is there, else a model from a file (model_scene.h), whose warnings go to the
 /// terminal. Throws InputError for what is neither.
 AnimatedScene load_animated_scene(const std::string& name_or_path);
