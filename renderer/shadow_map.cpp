@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 namespace stairstep {
 
@@ -29,8 +30,12 @@ DepthMap make_depth_map(int width, int height, DepthFormat format) {
 }
 
 ShadowMap reserve_shadow_map(int capacity, DepthFormat format) {
-    const int side = capacity + 2 * kGuardTexels;
-    return {capacity, make_depth_map(side, side, format), {}, 0};
+    return reserve_shadow_map(capacity, format, glm::ivec2(map_texture_side(capacity)));
+}
+
+ShadowMap reserve_shadow_map(int capacity, DepthFormat format, const glm::ivec2& texture_size) {
+    assert(texture_size.x >= map_texture_side(capacity) && texture_size.y >= map_texture_side(capacity));
+    return {capacity, texture_size, make_depth_map(texture_size.x, texture_size.y, format), {}, 0};
 }
 
 int capacity_for(int side, int largest) {
