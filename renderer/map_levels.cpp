@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kGuards = 2 * kGuardTexels;
 constexpr int kCoarsest = 4;
-/// Finding the ranges of more takes as long as they save.
+/// Finding the ranges of more takes longer than they save. Those of the coarser levels alone are no gain in smaller maps: many looks
+/// are into the map itself.
 constexpr size_t kMostTexelsForRanges = size_t{2} << 20;
 
 int divided_up(int a, int b) {
