@@ -60,7 +60,7 @@ MapLevels::MapLevels(bool with_ranges)
       wants_ranges_(with_ranges) {}
 
 void MapLevels::fill(const ShadowMap& map) {
-    assert(map.texture_size == levels_texture_size(map.capacity));
+    assert(map.memory.size == levels_texture_size(map.capacity));
     places_ = level_places(map.shape.width, map.shape.height);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, map.memory.framebuffer.id());
     gl::Enable(GL_DEPTH_TEST);
@@ -93,7 +93,7 @@ void MapLevels::bind(const gl::Program& program, const ShadowMap& map) const {
     for (const LevelPlace& place : places_) places.emplace_back(place.x, place.y, place.width, place.height);
     gl::set_uniform(program, "level_place", places);
     gl::set_uniform(program, "level_count", static_cast<int>(places.size()));
-    gl::set_uniform(program, "levels_scale", glm::vec2(1) / glm::vec2(map.texture_size));
+    gl::set_uniform(program, "levels_scale", glm::vec2(1) / glm::vec2(map.memory.size));
     gl::BindTextureUnit(2, map.memory.depth.id());
     gl::set_uniform(program, "with_ranges", has_ranges_ ? 1 : 0);
     ranges_.bind(program);

@@ -26,7 +26,7 @@ DepthMap make_depth_map(int width, int height, DepthFormat format) {
     gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl::Framebuffer framebuffer = gl::make_framebuffer(0, depth.id());
-    return {std::move(depth), std::move(framebuffer), format};
+    return {std::move(depth), std::move(framebuffer), format, {width, height}};
 }
 
 ShadowMap reserve_shadow_map(int capacity, DepthFormat format) {
@@ -35,7 +35,7 @@ ShadowMap reserve_shadow_map(int capacity, DepthFormat format) {
 
 ShadowMap reserve_shadow_map(int capacity, DepthFormat format, const glm::ivec2& texture_size) {
     assert(texture_size.x >= map_texture_side(capacity) && texture_size.y >= map_texture_side(capacity));
-    return {capacity, texture_size, make_depth_map(texture_size.x, texture_size.y, format), {}, 0};
+    return {capacity, make_depth_map(texture_size.x, texture_size.y, format), {}, 0};
 }
 
 int capacity_for(int side, int largest) {

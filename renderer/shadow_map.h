@@ -13,6 +13,8 @@ struct DepthMap {
     gl::Texture depth;
     gl::Framebuffer framebuffer;
     DepthFormat format = DepthFormat::float32;
+    /// Width and height of the texture, texels.
+    glm::ivec2 size{0};
 };
 
 /// Throws FailureError where the driver can't make one of this size.
@@ -27,8 +29,6 @@ inline constexpr int kGuardTexels = 2;
 /// so that each texel can be compared with the depth that the receiver's plane has at this very texel.
 struct ShadowMap {
     int capacity = 0;
-    /// Width and height of the texture, texels.
-    glm::ivec2 texture_size{0};
     DepthMap memory;
     ShadowMapShape shape;
     /// Half-width of a constant filter, light plane.

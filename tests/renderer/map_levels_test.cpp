@@ -63,7 +63,7 @@ TEST(MapLevels, TheExtremesLieApartWithinTheirTextureToo) {
 
 /// Of the texture, row by row from the bottom.
 std::vector<float> read_depths(const ShadowMap& map) {
-    std::vector<float> values(static_cast<size_t>(map.texture_size.x) * map.texture_size.y);
+    std::vector<float> values(static_cast<size_t>(map.memory.size.x) * map.memory.size.y);
     gl::GetTextureImage(map.memory.depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                         static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
     gl::throw_on_error("reading levels");
@@ -71,7 +71,7 @@ std::vector<float> read_depths(const ShadowMap& map) {
 }
 
 void write_depths(const ShadowMap& map, const std::vector<float>& depths) {
-    gl::TextureSubImage2D(map.memory.depth.id(), 0, 0, 0, map.texture_size.x, map.texture_size.y, GL_DEPTH_COMPONENT,
+    gl::TextureSubImage2D(map.memory.depth.id(), 0, 0, 0, map.memory.size.x, map.memory.size.y, GL_DEPTH_COMPONENT,
                           GL_FLOAT, depths.data());
     gl::throw_on_error("writing depths");
 }
@@ -84,7 +84,7 @@ class FilledLevels : public testing::Test {
 TEST_F(FilledLevels, BeginEmpty) {
     const ShadowMap map = reserve_map_with_levels(100);
     EXPECT_EQ(map.capacity, 100);
-    EXPECT_EQ(map.texture_size, levels_texture_size(100));
+    EXPECT_EQ(map.memory.size, levels_texture_size(100));
     for (const float depth : read_depths(map)) ASSERT_EQ(depth, 1);
 }
 
@@ -93,7 +93,7 @@ TEST_F(FilledLevels, BeginEmpty) {
 // between levels stay as they are.
 TEST_F(FilledLevels, HoldTheMapsDepthsAtTheirTexelsCentres) {
     ShadowMap map = reserve_map_with_levels(150);
-    const glm::ivec2 size = map.texture_size;
+    const glm::ivec2 size = map.memory.size;
     const auto at = [&](int x, int y) { return static_cast<size_t>(y) * size.x + x; };
     MapLevels levels(true);
     Random random(7);
@@ -146,8 +146,8 @@ int most_steps_off(DepthFormat format, int first) {
     const int bits = bits_of(format);
     ShadowMap map = reserve_map_with_levels(2 * kSide, format);
     map.shape.width = map.shape.height = 2 * kSide;
-    const auto at = [&](int x, int y) { return static_cast<size_t>(y) * map.texture_size.x + x; };
-    const size_t texels = static_cast<size_t>(map.texture_size.x) * map.texture_size.y;
+    const auto at = [&](int x, int y) { return static_cast<size_t>(y) * map.memory.size.x + x; };
+    const size_t texels = static_cast<size_t>(map.memory.size.x) * map.memory.size.y;
     // The upper bits are the number itself.
     std::vector<uint32_t> depths(texels, 0xffffffff);
     for (int j = 0; j < kSide; ++j) {
@@ -157,7 +157,7 @@ int most_steps_off(DepthFormat format, int first) {
                 number << (32 - bits) | number >> (2 * bits - 32);
         }
     }
-    gl::TextureSubImage2D(map.memory.depth.id(), 0, 0, 0, map.texture_size.x, map.texture_size.y, GL_DEPTH_COMPONENT,
+    gl::TextureSubImage2D(map.memory.depth.id(), 0, 0, 0, map.memory.size.x, map.memory.size.y, GL_DEPTH_COMPONENT,
                           GL_UNSIGNED_INT, depths.data());
     MapLevels levels(false);
     levels.fill(map);

@@ -58,7 +58,7 @@ ShadowMapShape shape_for(const Scene& scene, const SceneState& state, double rea
 }
 
 std::vector<float> depths(const ShadowMap& map) {
-    std::vector<float> values(static_cast<size_t>(map.texture_size.x) * map.texture_size.y);
+    std::vector<float> values(static_cast<size_t>(map.memory.size.x) * map.memory.size.y);
     gl::GetTextureImage(map.memory.depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                         static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
     return values;
