@@ -30,10 +30,7 @@ TechniqueSettings technique_settings(const ShadowSettings& settings) {
 
 LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& settings, const GpuScene& scene,
                          const SceneState& first, double aspect, const glm::dvec3& middle)
-    : settings_(settings),
-      middle_(middle),
-      map_(reserve_shadow_map(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)),
-                              settings.depth.format)) {
+    : settings_(settings), middle_(middle) {
     // A filter mode that is chosen by the map needs the first; a technique to say how far it looks isn't there yet.
     map_.filter_radius = light_plane_radius(settings.radius, first.light, middle_);
     const LightFrustum frustum = fit_light_frustum(
@@ -54,6 +51,7 @@ LightShadow::LightShadow(const TechniqueEntry& entry, const ShadowSettings& sett
             std::string(entry.name) + " compares depths over a filter by a plane, which only the reciprocal keeps",
             "use hard or pcf, or --spot-depth reciprocal");
     }
+    reserve(settings.fixed_size.value_or(capacity_for(1, settings.largest_size)));
     if (!settings.fixed_size && technique_->measures_need()) meter_.emplace();
 }
 
@@ -71,6 +69,13 @@ glm::dvec2 LightShadow::shadowed_range(const GpuScene& scene, const SceneState& 
     const Camera& camera = state.camera;
     const glm::dvec2 range = glm::clamp(fit(scene, state, aspect, texel).view_range, camera.near, camera.far);
     return range.x < range.y ? range : glm::dvec2(camera.near, camera.far);
+}
+
+void LightShadow::reserve(int capacity) {
+    ShadowMap map = technique_->reserve(capacity, settings_.depth.format);
+    map.shape = map_.shape;
+    map.filter_radius = map_.filter_radius;
+    map_ = std::move(map);
 }
 
 ShadowMapShape LightShadow::choose(const GpuScene& scene, const SceneState& state, double aspect, int height_px,
@@ -126,7 +131,7 @@ void LightShadow::update_map(const ShadowMapShape& shape, Shown shown, const Gpu
                              gl::PassTimer& timer, FrameTime& time) {
     const int side = std::max(shape.width, shape.height);
     if (side > map_.capacity) {
-        map_ = reserve_shadow_map(capacity_for(side, std::max(side, settings_.largest_size)), settings_.depth.format);
+        reserve(capacity_for(side, std::max(side, settings_.largest_size)));
     }
     map_.shape = shape;
     map_.filter_radius = light_plane_radius(settings_.radius, state.light, middle_);

@@ -61,6 +61,9 @@ class LightShadow {
         bool same_as(const Seen& other) const;
     };
 
+    /// Memory for maps of up to so many texels a side, and for what the technique keeps beside them.
+    void reserve(int capacity);
+
     /// Decides whether this part's visibility is kept, and from when it can be read.
     /// For filters that reach farther by a margin, light plane.
     LightFrustum fit(const GpuScene& scene, const SceneState& state, double aspect, double margin) const;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
+#include <span>
 
 #include "embedded/shaders.h"
 
@@ -10,7 +12,8 @@ namespace {
 
 constexpr int kGuards = 2 * kGuardTexels;
 constexpr int kCoarsest = 4;
-/// Finding the ranges of more takes as long as they save.
+/// Finding the ranges of more takes longer than they save. Those of the coarser levels alone are no gain in smaller maps: many looks
+/// are into the map itself.
 constexpr size_t kMostTexelsForRanges = size_t{2} << 20;
 
 int divided_up(int a, int b) {
@@ -43,57 +46,55 @@ glm::ivec2 levels_texture_size(int capacity) {
     return {capacity + divided_up(capacity, 2) + divided_up(capacity, 3) + 3 * kGuards, capacity + slack};
 }
 
+ShadowMap reserve_map_with_levels(int capacity, DepthFormat format) {
+    ShadowMap map = reserve_shadow_map(capacity, format, levels_texture_size(capacity));
+    // Ranges see what lies between levels as well: it must be depths.
+    const float empty = 1;
+    gl::ClearNamedFramebufferfv(map.memory.framebuffer.id(), GL_DEPTH, 0, &empty);
+    return map;
+}
+
 MapLevels::MapLevels(bool with_ranges)
     : program_(gl::make_program("levels", {embedded::fullscreen_vert}, {embedded::map_level_frag})),
       no_vertices_(gl::make_vertex_array()),
       wants_ranges_(with_ranges) {}
 
-void MapLevels::reserve(int capacity) {
-    if (capacity == capacity_) return;
-    capacity_ = capacity;
-    size_ = levels_texture_size(capacity);
-    texture_ = gl::make_texture(GL_R32F, size_.x, size_.y);
-    framebuffer_ = gl::make_framebuffer(texture_.id(), 0);
-    gl::TextureParameteri(texture_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl::TextureParameteri(texture_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl::TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl::TextureParameteri(texture_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    // Ranges see what lies between levels as well: it must be depths.
-    const glm::vec4 empty(1);
-    gl::ClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, &empty.x);
-}
-
 void MapLevels::fill(const ShadowMap& map) {
-    reserve(map.capacity);
+    assert(map.memory.size == levels_texture_size(map.capacity));
     places_ = level_places(map.shape.width, map.shape.height);
-    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
-    gl::Disable(GL_DEPTH_TEST);
+    gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, map.memory.framebuffer.id());
+    gl::Enable(GL_DEPTH_TEST);
+    gl::DepthFunc(GL_ALWAYS);
     gl::UseProgram(program_.id());
     gl::BindVertexArray(no_vertices_.id());
     gl::BindTextureUnit(0, map.memory.depth.id());
     gl::set_uniform(program_, "map_size", glm::vec2(map.shape.width, map.shape.height));
-    for (const LevelPlace& place : places_) {
+    // The map was drawn into the texture that is read, and all that is drawn from here on lies elsewhere in it.
+    gl::TextureBarrier();
+    for (const LevelPlace& place : std::span(places_).subspan(1)) {
         gl::Viewport(place.x - kGuardTexels, place.y - kGuardTexels, place.width + kGuards, place.height + kGuards);
         gl::set_uniform(program_, "place", glm::vec2(place.x, place.y));
         gl::set_uniform(program_, "factor", place.factor);
         gl::DrawArrays(GL_TRIANGLES, 0, 3);
     }
+    gl::DepthFunc(GL_LESS);
+    gl::Disable(GL_DEPTH_TEST);
     has_ranges_ = wants_ranges_ && map.shape.texel_count() <= kMostTexelsForRanges;
     if (!has_ranges_) return;
     glm::ivec2 used(0);
     for (const LevelPlace& place : places_) {
         used = glm::max(used, glm::ivec2(place.x + place.width, place.y + place.height) + kGuardTexels);
     }
-    ranges_.fill(texture_.id(), used);
+    ranges_.fill(map.memory.depth.id(), used);
 }
 
-void MapLevels::bind(const gl::Program& program) const {
+void MapLevels::bind(const gl::Program& program, const ShadowMap& map) const {
     std::vector<glm::vec4> places;
     for (const LevelPlace& place : places_) places.emplace_back(place.x, place.y, place.width, place.height);
     gl::set_uniform(program, "level_place", places);
     gl::set_uniform(program, "level_count", static_cast<int>(places.size()));
-    gl::set_uniform(program, "levels_scale", glm::vec2(1) / glm::vec2(size_));
-    gl::BindTextureUnit(2, texture_.id());
+    gl::set_uniform(program, "levels_scale", glm::vec2(1) / glm::vec2(map.memory.size));
+    gl::BindTextureUnit(2, map.memory.depth.id());
     gl::set_uniform(program, "with_ranges", has_ranges_ ? 1 : 0);
     ranges_.bind(program);
 }

@@ -3,7 +3,10 @@
 // A level of factor f holds what a map of f times the texel would: the depth at the centre of each of its texels, which is
 // one of the finest map's texels. So a level is a shadow map in its own right, without bias, and costs a fetch a texel.
 // Factors are 1, 2, 3, 4, 6, 8, 12, 16 …: an even factor's grid is moved by half a fine texel, which puts its texels'
-// centres on the finest map's. All levels lie in one texture, as a shader can't choose between several.
+// centres on the finest map's. All levels lie in one texture, as a shader can't choose between several: in the map's own, beside
+// the map, which so is its first level without a copy. A depth that is read is one that can be stored: what levels hold is the
+// map's to the bit in floats and in 16 bits. Floats don't tell all of 24 bits apart, and there it may be a step off, of which
+// receivers leave more than thirty to rounding (kRounding of shaders/receiver.glsl).
 #pragma once
 
 #include <vector>
@@ -35,33 +38,29 @@ struct LevelPlace {
 /// each don't overlap, and lie within levels_texture_size(max(width, height)).
 std::vector<LevelPlace> level_places(int width, int height);
 
-/// Width and height of the texture that holds the levels of any map of up to `capacity` texels a side.
+/// Width and height of the texture that holds any map of up to `capacity` texels a side, and its levels: about 11/6 times
+/// as wide as the map.
 glm::ivec2 levels_texture_size(int capacity);
+
+/// Memory for maps of up to so many texels a side and their levels; all empty. Throws FailureError as make_depth_map.
+ShadowMap reserve_map_with_levels(int capacity, DepthFormat format = DepthFormat::float32);
 
 class MapLevels {
   public:
     /// Without ranges, no window tells that all it holds is lit.
     explicit MapLevels(bool with_ranges);
 
-    /// Fills the levels from the map, with memory for as large maps as the map itself has, and finds the ranges of their depths where there are few enough.
+    /// Fills the levels beside a map of reserve_map_with_levels, and finds the ranges of their depths where there are few enough.
     void fill(const ShadowMap& map);
 
     const std::vector<LevelPlace>& places() const { return places_; }
 
-    /// Sets what shaders/pcss_levels.glsl needs of them, on texture units 2 and 3.
-    void bind(const gl::Program& program) const;
+    /// Sets what shaders/pcss_levels.glsl needs of the map that was filled last, on texture units 2 and 3.
+    void bind(const gl::Program& program, const ShadowMap& map) const;
 
   private:
-    void reserve(int capacity);
-
-    /// Of the maps whose levels there is memory for.
-    int capacity_ = 0;
-    glm::ivec2 size_{0};
     gl::Program program_;
     gl::VertexArray no_vertices_;
-    /// R32F; empty texels hold 1.
-    gl::Texture texture_;
-    gl::Framebuffer framebuffer_;
     bool wants_ranges_;
     DepthRanges ranges_;
     bool has_ranges_ = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 namespace stairstep {
 
@@ -25,12 +26,16 @@ DepthMap make_depth_map(int width, int height, DepthFormat format) {
     gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl::TextureParameteri(depth.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl::Framebuffer framebuffer = gl::make_framebuffer(0, depth.id());
-    return {std::move(depth), std::move(framebuffer), format};
+    return {std::move(depth), std::move(framebuffer), format, {width, height}};
 }
 
 ShadowMap reserve_shadow_map(int capacity, DepthFormat format) {
-    const int side = capacity + 2 * kGuardTexels;
-    return {capacity, make_depth_map(side, side, format), {}, 0};
+    return reserve_shadow_map(capacity, format, glm::ivec2(map_texture_side(capacity)));
+}
+
+ShadowMap reserve_shadow_map(int capacity, DepthFormat format, const glm::ivec2& texture_size) {
+    assert(texture_size.x >= map_texture_side(capacity) && texture_size.y >= map_texture_side(capacity));
+    return {capacity, make_depth_map(texture_size.x, texture_size.y, format), {}, 0};
 }
 
 int capacity_for(int side, int largest) {

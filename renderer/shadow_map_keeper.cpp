@@ -32,8 +32,9 @@ bool ShadowMapKeeper::update(const GpuScene& scene, const SceneState& state, con
                              drawn_->scene == scene.serial && drawn_->shape.texels_equal(map.shape);
     if (only_movers) {
         if (!still_ || !still_->same_as(still)) {
-            if (still_side_ != map.texture_side() || still_memory_.format != map.memory.format) {
-                still_side_ = map.texture_side();
+            const int side = map_texture_side(map.capacity);
+            if (still_side_ != side || still_memory_.format != map.memory.format) {
+                still_side_ = side;
                 still_memory_ = make_depth_map(still_side_, still_side_, map.memory.format);
             }
             pass_.clear(still_memory_, map.shape);

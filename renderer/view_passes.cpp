@@ -93,7 +93,7 @@ void set_receiver_uniforms(const gl::Program& program, const ShadowMap& map, con
     const double cone = light.cone_deg * std::numbers::pi / 180;
     const double pixel = pixel_footprint(state.camera, 1, height_px);
     gl::set_uniform(program, "map_size", glm::vec2(map.shape.width, map.shape.height));
-    gl::set_uniform(program, "map_scale", glm::vec2(1.0f / static_cast<float>(map.texture_side())));
+    gl::set_uniform(program, "map_scale", glm::vec2(1) / glm::vec2(map.memory.size));
     gl::set_uniform(program, "texel_side", glm::vec2(map.shape.texel()));
     gl::set_uniform(program, "light_from_eye", glm::vec3(light.position - eye));
     gl::set_uniform(program, "texel_from_eye", glm::mat4(texel_from_eye));

@@ -23,7 +23,7 @@
     X(NamedFramebufferTexture) X(PixelStorei) X(ProgramUniform1f) X(ProgramUniform1i) X(ProgramUniform2f) \
     X(ProgramUniform3f) X(ProgramUniform4fv) X(ProgramUniformMatrix3fv) X(BlendFunc) X(Enablei) X(DepthFunc) \
     X(ProgramUniformMatrix4fv) X(Scissor) X(ShaderSource) X(TextureParameterfv) \
-    X(TextureParameteri) X(TextureStorage2D) X(TextureStorage2DMultisample) X(TextureSubImage2D) X(UseProgram) \
+    X(TextureBarrier) X(TextureParameteri) X(TextureStorage2D) X(TextureStorage2DMultisample) X(TextureSubImage2D) X(UseProgram) \
     X(VertexArrayAttribBinding) X(VertexArrayAttribFormat) X(VertexArrayElementBuffer) X(VertexArrayVertexBuffer) \
     X(Viewport)
 // clang-format on

@@ -66,6 +66,10 @@ class PcssLevels final : public ShadowTechnique {
 
     bool measures_need() const override { return true; }
 
+    ShadowMap reserve(int capacity, DepthFormat format) const override {
+        return reserve_map_with_levels(capacity, format);
+    }
+
     double reach(const LightFrustum& frustum, double) const override { return search_reach(frustum); }
 
     void prepare(const ShadowMap& map) override { levels_.fill(map); }
@@ -76,7 +80,7 @@ class PcssLevels final : public ShadowTechnique {
         gl::set_uniform(program, "search_radius", static_cast<float>(kSearchRadius));
         gl::set_uniform(program, "nearer_levels", kNearerLevels);
         gl::set_uniform(program, "estimate_texel", static_cast<float>(kEstimateTexel));
-        levels_.bind(program);
+        levels_.bind(program, map);
     }
 
     Lookups lookups(const ShadowMap&) const override {

@@ -80,6 +80,9 @@ class ShadowTechnique {
     /// Whether its filter's radius is its own in each pixel, and it writes `needed_texel`.
     virtual bool measures_need() const { return false; }
 
+    /// Memory for maps of up to `capacity` texels a side, and for what it keeps beside them. Throws FailureError.
+    virtual ShadowMap reserve(int capacity, DepthFormat format) const { return reserve_shadow_map(capacity, format); }
+
     /// How far from the receiver it looks, light plane. `filter_radius` is ShadowMap's.
     virtual double reach(const LightFrustum& frustum, double filter_radius) const = 0;
 

@@ -114,7 +114,7 @@ TEST_F(Encoded, StoredDepthsAreWithinAStep) {
                 ShadowMapKeeper keeper;
                 gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
                 keeper.update(gpu, state, map, {false, false});
-                std::vector<float> depths(static_cast<size_t>(map.texture_side()) * map.texture_side());
+                std::vector<float> depths(static_cast<size_t>(map.memory.size.x) * map.memory.size.x);
                 gl::GetTextureImage(map.memory.depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                                     static_cast<GLsizei>(depths.size() * sizeof(float)), depths.data());
                 double largest = 0;
@@ -136,8 +136,8 @@ TEST_F(Encoded, StoredDepthsAreWithinAStep) {
                         if (std::abs(at_small.x) < 0.2 && std::abs(at_small.z) < 0.2) continue;
                         const double expected =
                             stored_depth(spot ? linear : SpotDepth::linear, frustum.nearest, frustum.farthest, z);
-                        const double stored = depths[static_cast<size_t>(row + kGuardTexels) * map.texture_side() +
-                                                     column + kGuardTexels];
+                        const double stored =
+                            depths[static_cast<size_t>(row + kGuardTexels) * map.memory.size.x + column + kGuardTexels];
                         largest = std::max(largest, std::abs(stored - expected));
                         if (format == DepthFormat::unorm16) {
                             off_grid = std::max(off_grid, std::abs(stored * 65535 - std::round(stored * 65535)));

@@ -61,46 +61,41 @@ TEST(MapLevels, TheExtremesLieApartWithinTheirTextureToo) {
     }
 }
 
-/// Copies unit 2, where the levels are bound, into a texture that can be read.
-constexpr std::string_view kCopyVertex = R"(#version 450 core
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }
-)";
-constexpr std::string_view kCopyFragment = R"(#version 450 core
-layout(binding = 2) uniform sampler2D levels;
-layout(location = 0) out float copied;
-void main() { copied = texelFetch(levels, ivec2(gl_FragCoord.xy), 0).r; }
-)";
+/// Of the texture, row by row from the bottom.
+std::vector<float> read_depths(const ShadowMap& map) {
+    std::vector<float> values(static_cast<size_t>(map.memory.size.x) * map.memory.size.y);
+    gl::GetTextureImage(map.memory.depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                        static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
+    gl::throw_on_error("reading levels");
+    return values;
+}
+
+void write_depths(const ShadowMap& map, const std::vector<float>& depths) {
+    gl::TextureSubImage2D(map.memory.depth.id(), 0, 0, 0, map.memory.size.x, map.memory.size.y, GL_DEPTH_COMPONENT,
+                          GL_FLOAT, depths.data());
+    gl::throw_on_error("writing depths");
+}
 
 class FilledLevels : public testing::Test {
   protected:
-    std::vector<float> read(const MapLevels& levels, const glm::ivec2& size) {
-        const gl::Program program = gl::make_program("copy", {kCopyVertex}, {kCopyFragment});
-        const gl::Texture copy = gl::make_texture(GL_R32F, size.x, size.y);
-        const gl::Framebuffer framebuffer = gl::make_framebuffer(copy.id(), 0);
-        const gl::VertexArray no_vertices = gl::make_vertex_array();
-        levels.bind(program);
-        gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
-        gl::Viewport(0, 0, size.x, size.y);
-        gl::UseProgram(program.id());
-        gl::BindVertexArray(no_vertices.id());
-        gl::DrawArrays(GL_TRIANGLES, 0, 3);
-        std::vector<float> values(static_cast<size_t>(size.x) * size.y);
-        gl::GetTextureImage(copy.id(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
-                            values.data());
-        gl::throw_on_error("reading levels");
-        return values;
-    }
-
     std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
 };
 
+TEST_F(FilledLevels, BeginEmpty) {
+    const ShadowMap map = reserve_map_with_levels(100);
+    EXPECT_EQ(map.capacity, 100);
+    EXPECT_EQ(map.memory.size, levels_texture_size(100));
+    for (const float depth : read_depths(map)) ASSERT_EQ(depth, 1);
+}
+
 // A level's texel holds what the map holds where that texel's centre is: a grid of `factor` texels a side, which lies half a
-// texel further along both axes if the factor is even, so that its centres are texel centres.
+// texel further along both axes if the factor is even, so that its centres are texel centres. The map itself and what lies
+// between levels stay as they are.
 TEST_F(FilledLevels, HoldTheMapsDepthsAtTheirTexelsCentres) {
-    constexpr int kCapacity = 150;
-    ShadowMap map = reserve_shadow_map(kCapacity);
+    ShadowMap map = reserve_map_with_levels(150);
+    const glm::ivec2 size = map.memory.size;
+    const auto at = [&](int x, int y) { return static_cast<size_t>(y) * size.x + x; };
     MapLevels levels(true);
-    const glm::ivec2 size = levels_texture_size(kCapacity);
     Random random(7);
     // A small map after a large one: what the large one left must not show.
     for (const glm::ivec2& sides : std::vector<glm::ivec2>{{150, 131}, {37, 150}, {64, 64}, {1, 9}, {1, 1}, {5, 2}}) {
@@ -108,35 +103,91 @@ TEST_F(FilledLevels, HoldTheMapsDepthsAtTheirTexelsCentres) {
         map.shape.width = sides.x;
         map.shape.height = sides.y;
         // All of the texture, so that only the level's own test keeps out what lies beyond the map.
-        std::vector<float> depths(static_cast<size_t>(map.texture_side()) * map.texture_side());
-        for (float& depth : depths) depth = static_cast<float>(0.9 * random.uniform());
-        gl::TextureSubImage2D(map.memory.depth.id(), 0, 0, 0, map.texture_side(), map.texture_side(),
-                              GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+        std::vector<float> expected(static_cast<size_t>(size.x) * size.y);
+        for (float& depth : expected) depth = static_cast<float>(0.9 * random.uniform());
+        write_depths(map, expected);
         levels.fill(map);
-        ASSERT_EQ(levels.places().size(), level_places(sides.x, sides.y).size());
-        const std::vector<float> filled = read(levels, size);
-        int wrong = 0;
-        int inside = 0;
-        for (const LevelPlace& place : levels.places()) {
+        const std::vector<LevelPlace>& places = levels.places();
+        ASSERT_EQ(places.size(), level_places(sides.x, sides.y).size());
+        // The map is the first level.
+        ASSERT_EQ(places[0].x, kGuardTexels);
+        ASSERT_EQ(places[0].y, kGuardTexels);
+        for (const LevelPlace& place : places) {
+            if (place.factor == 1) continue;
             const double shift = place.factor % 2 == 0 ? 0.5 : 0;
+            int inside = 0;
             for (int j = -kGuardTexels; j < place.height + kGuardTexels; ++j) {
                 for (int i = -kGuardTexels; i < place.width + kGuardTexels; ++i) {
                     // Centre of the texel, in the map's texels.
                     const double x = (i + 0.5) * place.factor + shift;
                     const double y = (j + 0.5) * place.factor + shift;
-                    float expected = 1;
+                    float& depth = expected[at(place.x + i, place.y + j)];
+                    depth = 1;
                     if (x > 0 && y > 0 && x < sides.x && y < sides.y) {
                         ASSERT_EQ(x - std::floor(x), 0.5) << "not a texel's centre";
-                        expected = depths[static_cast<size_t>(std::floor(y) + kGuardTexels) * map.texture_side() +
-                                          static_cast<size_t>(std::floor(x)) + kGuardTexels];
+                        depth = expected[at(static_cast<int>(x) + kGuardTexels, static_cast<int>(y) + kGuardTexels)];
                         ++inside;
                     }
-                    wrong += filled[static_cast<size_t>(place.y + j) * size.x + place.x + i] != expected;
                 }
             }
+            EXPECT_GE(inside, (place.width - 1) * (place.height - 1));
         }
+        const std::vector<float> filled = read_depths(map);
+        int wrong = 0;
+        for (size_t i = 0; i < filled.size(); ++i) wrong += filled[i] != expected[i];
         EXPECT_EQ(wrong, 0);
-        EXPECT_GE(inside, sides.x * sides.y);
+    }
+}
+
+/// A map of 512 × 512 texels whose level of factor 2 is to hold the numbers from `first` on, row by row, in steps of the
+/// format's: most steps by which they are off.
+int most_steps_off(DepthFormat format, int first) {
+    constexpr int kSide = 256;
+    const int bits = bits_of(format);
+    ShadowMap map = reserve_map_with_levels(2 * kSide, format);
+    map.shape.width = map.shape.height = 2 * kSide;
+    const auto at = [&](int x, int y) { return static_cast<size_t>(y) * map.memory.size.x + x; };
+    const size_t texels = static_cast<size_t>(map.memory.size.x) * map.memory.size.y;
+    // The upper bits are the number itself.
+    std::vector<uint32_t> depths(texels, 0xffffffff);
+    for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i) {
+            const auto number = static_cast<uint32_t>(first + kSide * j + i);
+            depths[at(kGuardTexels + 2 * i + 1, kGuardTexels + 2 * j + 1)] =
+                number << (32 - bits) | number >> (2 * bits - 32);
+        }
+    }
+    gl::TextureSubImage2D(map.memory.depth.id(), 0, 0, 0, map.memory.size.x, map.memory.size.y, GL_DEPTH_COMPONENT,
+                          GL_UNSIGNED_INT, depths.data());
+    MapLevels levels(false);
+    levels.fill(map);
+    std::vector<uint32_t> filled(texels);
+    gl::GetTextureImage(map.memory.depth.id(), 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
+                        static_cast<GLsizei>(texels * sizeof(uint32_t)), filled.data());
+    gl::throw_on_error("reading levels");
+    const LevelPlace place = levels.places()[1];
+    int most = 0;
+    for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i) {
+            const uint32_t source = filled[at(kGuardTexels + 2 * i + 1, kGuardTexels + 2 * j + 1)] >> (32 - bits);
+            // Writing and reading it may have cost a step.
+            EXPECT_NEAR(source, first + kSide * j + i, bits == 16 ? 0 : 1);
+            const uint32_t copied = filled[at(place.x + i, place.y + j)] >> (32 - bits);
+            most = std::max(most, std::abs(static_cast<int>(copied) - static_cast<int>(source)));
+        }
+    }
+    return most;
+}
+
+TEST_F(FilledLevels, HoldAllDepthsOf16BitsToTheBit) {
+    EXPECT_EQ(most_steps_off(DepthFormat::unorm16, 0), 0);
+}
+
+// As floats they pass through the shader, which don't tell all of them apart.
+TEST_F(FilledLevels, HoldDepthsOf24BitsToAStep) {
+    for (const int first : {0, 0x3f8000, 0x700000, 0x7f8000, 0xbf8000, 0xff0000}) {
+        SCOPED_TRACE(first);
+        EXPECT_LE(most_steps_off(DepthFormat::unorm24, first), 1);
     }
 }
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "renderer/gl/context.h"
+#include "renderer/map_levels.h"
 #include "tests/renderer/made_scenes.h"
 
 namespace stairstep {
@@ -56,7 +58,7 @@ ShadowMapShape shape_for(const Scene& scene, const SceneState& state, double rea
 }
 
 std::vector<float> depths(const ShadowMap& map) {
-    std::vector<float> values(static_cast<size_t>(map.texture_side()) * map.texture_side());
+    std::vector<float> values(static_cast<size_t>(map.memory.size.x) * map.memory.size.y);
     gl::GetTextureImage(map.memory.depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                         static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
     return values;
@@ -81,11 +83,15 @@ TEST_F(Keeper, DrawsWhatChangedAndNoMore) {
         EXPECT_EQ(depths(map), depths(fresh)) << "what is kept is what would be drawn";
         return keeper.triangles();
     };
-    // One after the other: what was put aside in one format is of no use in the next.
-    for (const DepthFormat format : {DepthFormat::float32, DepthFormat::unorm16, DepthFormat::unorm24}) {
-        SCOPED_TRACE(bits_of(format));
-        map = reserve_shadow_map(kSide, format);
-        fresh = reserve_shadow_map(kSide, format);
+    // One after the other: what was put aside in one format is of no use in the next. Beside the map all stays empty.
+    const std::array reserves{+[](DepthFormat format) { return reserve_shadow_map(kSide, format); },
+                              +[](DepthFormat format) { return reserve_map_with_levels(kSide, format); }};
+    for (int kind = 0; kind < 6; ++kind) {
+        const DepthFormat format =
+            std::array{DepthFormat::float32, DepthFormat::unorm16, DepthFormat::unorm24}[kind / 2];
+        SCOPED_TRACE(testing::Message() << bits_of(format) << " bits" << (kind % 2 == 1 ? ", with levels" : ""));
+        map = reserves[kind % 2](format);
+        fresh = reserves[kind % 2](format);
         EXPECT_EQ(drawn(spheres_state(0)), all);
         for (int i = 0; i < 3; ++i) EXPECT_EQ(drawn(spheres_state(0)), 0u);
         EXPECT_EQ(drawn(spheres_state(0.5)), all) << "those that stand still are put aside, once";
