@@ -129,13 +129,19 @@ gl::Program make_surface_program(bool textured) {
                              embedded::surface_drawn_glsl, embedded::surface_frag});
 }
 
-/// Where what is drawn is lit, cleared to what shows nothing.
-void clear(const gl::Framebuffer& framebuffer, const FrameTarget& target, bool need) {
+/// Whether no other part of the picture is lit before: of several slices the first has the nearest surfaces.
+bool is_first(const LightPart& part) {
+    return part.index == 0 && (!part.slice || part.slice->x < 0);
+}
+
+/// The picture as it is where nothing is, before anything is lit; and pixels that need nothing, of each light and slice.
+void clear_lit(GLuint framebuffer, const FrameTarget& target, const LightPart& part) {
     const glm::vec4 background = target.show == Show::colour ? glm::vec4(kBackground, 1) : glm::vec4(1);
     const glm::vec4 no_need(1e30f);
-    gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 0, &background.x);
-    if (need) gl::ClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 1, &no_need.x);
-    gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &kFarthestDepth);
+    // Colours that are cleared to are encoded as those that are drawn.
+    gl::Enable(GL_FRAMEBUFFER_SRGB);
+    if (is_first(part)) gl::ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, &background.x);
+    if (part.need) gl::ClearNamedFramebufferfv(framebuffer, GL_COLOR, 1, &no_need.x);
 }
 
 /// Those whose material has a texture, or those without.
@@ -248,16 +254,15 @@ void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, 
     set_receiver_uniforms(program, map, state, target.height);
     set_ray_uniforms(program, state.camera, target);
     if (part.visibility == LightPart::Visibility::computed) technique.bind(program, map);
-    // The first light writes every pixel: nothing to clear.
     const GLuint own = (part.need ? target.need_framebuffer : target.framebuffer).id();
     const GLuint framebuffer = part.framebuffer ? part.framebuffer : own;
-    // Other slices' pixels need nothing of this one's map.
-    const glm::vec4 no_need(1e30f);
-    if (part.need && part.slice) gl::ClearNamedFramebufferfv(framebuffer, GL_COLOR, 1, &no_need.x);
+    clear_lit(framebuffer, target, part);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     gl::Viewport(0, 0, target.width, target.height);
-    gl::Disable(GL_DEPTH_TEST);
-    gl::Enable(GL_FRAMEBUFFER_SRGB);
+    // Only where something is: the triangle lies at the farthest depth, 0.
+    gl::Enable(GL_DEPTH_TEST);
+    gl::DepthFunc(GL_LESS);
+    gl::DepthMask(GL_FALSE);
     set_blending(part);
     gl::UseProgram(program.id());
     gl::BindVertexArray(no_vertices_.id());
@@ -266,6 +271,7 @@ void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, 
     gl::BindTextureUnit(5, target.materials.id());
     if (part.visibility == LightPart::Visibility::kept) gl::BindTextureUnit(6, part.kept);
     gl::DrawArrays(GL_TRIANGLES, 0, 3);
+    gl::DepthMask(GL_TRUE);
     gl::Disable(GL_BLEND);
 }
 
@@ -275,10 +281,9 @@ void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, cons
     const gl::Framebuffer& framebuffer = target.samples > 1 ? target.multisample_framebuffer
                                          : part.need        ? target.need_framebuffer
                                                             : target.framebuffer;
-    // Of several slices the first has the nearest surfaces.
-    if (part.index == 0 && (!part.slice || part.slice->x < 0)) clear(framebuffer, target, part.need);
+    clear_lit(framebuffer.id(), target, part);
+    if (is_first(part)) gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &kFarthestDepth);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
-    gl::Enable(GL_FRAMEBUFFER_SRGB);
     set_blending(part);
     gl::BindTextureUnit(0, map.memory.depth.id());
     for (const bool textured : {false, true}) {

@@ -21,7 +21,7 @@
     X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage) X(GetUniformLocation) X(LinkProgram) X(MultiDrawElements) \
     X(NamedBufferStorage) X(NamedFramebufferDrawBuffers) X(NamedFramebufferReadBuffer) \
     X(NamedFramebufferTexture) X(PixelStorei) X(ProgramUniform1f) X(ProgramUniform1i) X(ProgramUniform2f) \
-    X(ProgramUniform3f) X(ProgramUniform4fv) X(ProgramUniformMatrix3fv) X(BlendFunc) X(Enablei) X(DepthFunc) \
+    X(ProgramUniform3f) X(ProgramUniform4fv) X(ProgramUniformMatrix3fv) X(BlendFunc) X(Enablei) X(DepthFunc) X(DepthMask) \
     X(ProgramUniformMatrix4fv) X(Scissor) X(ShaderSource) X(TextureParameterfv) \
     X(TextureBarrier) X(TextureParameteri) X(TextureStorage2D) X(TextureStorage2DMultisample) X(TextureSubImage2D) X(UseProgram) \
     X(VertexArrayAttribBinding) X(VertexArrayAttribFormat) X(VertexArrayElementBuffer) X(VertexArrayVertexBuffer) \

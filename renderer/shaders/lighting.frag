@@ -25,8 +25,6 @@ void main() {
     if (first_light != 0) irradiance += mix(kBounce, kSky, 0.5 + 0.5 * surface.normal.y);
     float fade = 0;
     if (surface.fades) fade = smoothstep(fade_range.x, fade_range.y, distance(surface.from_eye, middle_from_eye));
-    // Where nothing is, what is stored of a surface is an earlier frame's.
-    if (surface.facet == vec3(0)) fade = 1;
     vec3 behind = first_light != 0 ? background : vec3(0);
     colour = vec4(mix(surface.base_colour * irradiance, behind, fade), 1);
     shown_need = needed_texel;

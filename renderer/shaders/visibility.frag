@@ -10,7 +10,7 @@ void main() {
     Surface surface = surface_here();
     if (is_others(surface)) discard;
     float light = light_at(surface.from_eye, surface.facet, to_light(surface.from_eye));
-    shown_visibility = share * (surface.facet == vec3(0) ? 1 : light);
+    shown_visibility = share * light;
     shown_need = needed_texel;
     kept_visibility = light;
 }

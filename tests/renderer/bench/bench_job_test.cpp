@@ -126,7 +126,9 @@ TEST_F(SmallBench, MeasuresEachConfiguration) {
         // All of the light is where none should be, but for surfaces that are turned away.
         EXPECT_GT(bleedings["none"], 0.2);
         for (const auto& [technique, bleeding] : bleedings) {
-            if (technique != "none") EXPECT_LT(bleeding, 0.2 * bleedings["none"]) << technique;
+            if (technique != "none") {
+                EXPECT_LT(bleeding, 0.2 * bleedings["none"]) << technique;
+            }
         }
         EXPECT_LT(errors["pcf-rotated 49"], errors["pcf-rotated 9"]) << "more taps come closer to the filter";
     }
