@@ -29,7 +29,6 @@ uniform float softness;
 // Depth of the first caster; a spot's from the light, a directional light's from the eye.
 uniform float nearest;
 
-uniform int first_box;
 uniform int box_count;
 
 struct Box {
@@ -124,7 +123,7 @@ uint answer_of(Surface surface) {
     Met met = Met(surface.from_eye, towards, is_spot != 0 ? length(to_spot) : 1e30, normal,
                   constant_reach + softness * max(softening, 0), fall);
     for (int i = 0; i < box_count; ++i) {
-        if (may_shade(boxes[first_box + i], met)) return 2u;
+        if (may_shade(boxes[i], met)) return 2u;
     }
     return 1u;
 }
