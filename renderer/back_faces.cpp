@@ -8,8 +8,9 @@ namespace stairstep {
 std::vector<glm::dvec3> ray_starts(const Camera& camera, double aspect) {
     const auto& [right, up, back] = camera.basis;
     const glm::dvec3 middle = camera.eye - camera.near * back;
-    const glm::dvec3 y = camera.near * std::tan(camera.vertical_fov_deg * std::numbers::pi / 360) * up;
-    const glm::dvec3 x = camera.near * std::tan(camera.vertical_fov_deg * std::numbers::pi / 360) * aspect * right;
+    const double half_height = camera.near * std::tan(camera.vertical_fov_deg * std::numbers::pi / 360);
+    const glm::dvec3 y = half_height * up;
+    const glm::dvec3 x = half_height * aspect * right;
     return {middle - x - y, middle + x - y, middle - x + y, middle + x + y};
 }
 
@@ -19,15 +20,11 @@ std::vector<glm::dvec3> ray_starts(const LightFrustum& frustum) {
 }
 
 void set_faces(const GpuScene::Draw& draw, const SceneState& state, std::span<const glm::dvec3> starts) {
-    const glm::dmat4 world_from_model = stairstep::world_from_model(draw, state);
-    const double volume = glm::determinant(glm::dmat3(world_from_model));
-    const glm::dmat4 model_from_world = glm::inverse(world_from_model);
+    const glm::dmat4 model_from_world = glm::inverse(world_from_model(draw, state));
     std::vector<glm::dvec3> own;
     for (const glm::dvec3& start : starts) own.emplace_back(model_from_world * glm::dvec4(start, 1));
-    // What is flat has no inside.
-    if (draw.solids.empty() || volume == 0 || may_hold(draw.solids, own)) return set_both_faces();
+    if (draw.solids.empty() || may_hold(draw.solids, own)) return set_both_faces();
     gl::Enable(GL_CULL_FACE);
-    gl::FrontFace(volume > 0 ? GL_CCW : GL_CW);
 }
 
 void set_both_faces() {

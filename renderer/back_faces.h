@@ -1,7 +1,7 @@
 // Leaving out the back faces of solids (solids.h), as they are seen from somewhere.
 //
 // Neither a camera's pictures nor a light's maps are mirrored: right, up and back are right-handed, and x grows to the right and
-// y upwards. Only a mover that mirrors its mesh turns clockwise what is counter-clockwise.
+// y upwards. Movers only turn and move (scene_state.h). So front faces are counter-clockwise everywhere, OpenGL's own convention.
 #pragma once
 
 #include <span>

@@ -38,7 +38,7 @@ std::vector<CasterBox> caster_boxes(const GpuScene& scene) {
 }
 
 TurnedBox box_at(const CasterBox& box, const SceneState& state) {
-    const glm::dmat4 world_from_box = box.mover ? state.movers[*box.mover] : glm::dmat4(1);
+    const glm::dmat4 world_from_box = state.placement(box.mover);
     return {glm::dvec3(world_from_box * glm::dvec4(box.bounds.centre(), 1)), glm::dmat3(world_from_box),
             0.5 * (box.bounds.high - box.bounds.low)};
 }

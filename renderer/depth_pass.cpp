@@ -19,7 +19,7 @@ void DepthPass::clear(const DepthMap& memory, const ShadowMapShape& shape) const
 void DepthPass::draw(const GpuScene& scene, const SceneState& state, const DrawList& casters, const DepthMap& memory,
                      const ShadowMapShape& shape) {
     const LightFrustum& frustum = shape.frustum;
-    const bool linear = frustum.kind == Light::Kind::spot && frustum.encoding.spot == SpotDepth::linear;
+    const bool linear = !frustum.stores_planes();
     if (linear && !linear_program_.id()) {
         linear_program_ = gl::make_program("linear depth", {embedded::depth_vert}, {embedded::linear_depth_frag});
     }

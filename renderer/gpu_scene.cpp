@@ -44,7 +44,7 @@ std::vector<uint32_t> indices_of(const std::vector<uint32_t>& all, const Solids&
 }  // namespace
 
 glm::dmat4 world_from_model(const GpuScene::Draw& draw, const SceneState& state) {
-    return draw.mover ? state.movers[*draw.mover] : glm::dmat4(1);
+    return state.placement(draw.mover);
 }
 
 GpuScene upload(const Scene& scene) {

@@ -47,6 +47,9 @@ struct LightFrustum {
     /// the light around all visible receivers, at their technique's reach, and one behind the farthest of them.
     std::vector<glm::dvec4> caster_planes{};
 
+    /// Whether planes are planes of what is stored: of all but a spot's linear depths.
+    bool stores_planes() const { return kind == Light::Kind::directional || encoding.spot == SpotDepth::reciprocal; }
+
     /// What texels as large as the map's largest would span.
     glm::dvec2 extent() const { return warp.warps() ? warp.extent() : high - low; }
 };

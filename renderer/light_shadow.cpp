@@ -130,9 +130,7 @@ std::optional<ShadowQuestion> LightShadow::question(const ShadowMapShape& shape,
 void LightShadow::update_map(const ShadowMapShape& shape, Shown shown, const GpuScene& scene, const SceneState& state,
                              gl::PassTimer& timer, FrameTime& time) {
     const int side = std::max(shape.width, shape.height);
-    if (side > map_.capacity) {
-        reserve(capacity_for(side, std::max(side, settings_.largest_size)));
-    }
+    if (side > map_.capacity) reserve(capacity_for(side, std::max(side, settings_.largest_size)));
     map_.shape = shape;
     map_.filter_radius = light_plane_radius(settings_.radius, state.light, middle_);
     const Skips& skips = settings_.skips;
@@ -185,8 +183,8 @@ void LightShadow::light(Shown shown, const GpuScene& scene, const SceneState& st
         part.need = measured_ = false;
         seen_.reset();
         kept_is_filled_ = false;
-        // The first light brings the sky, and each the visibility where nothing is.
-        if (shown == Shown::nothing && part.index > 0 && target.show == Show::colour) return;
+        // The first light brings the sky.
+        if (shown == Shown::nothing && part.index > 0) return;
     } else if (settings_.skips.unchanged_pixels && stored && technique_->reads_map()) {
         keep({scene.serial, target.serial, state.camera, state.light, state.movers, map_.shape}, target, part);
     }

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct SceneState {
     std::vector<glm::dmat4> movers;
     /// Each with a shadow of its own, and as bright as the first.
     std::vector<Light> more_lights{};
+
+    /// World space from that of a mover's vertices, or of those that stand still.
+    glm::dmat4 placement(std::optional<size_t> mover) const { return mover ? movers[*mover] : glm::dmat4(1); }
 };
 
 /// What an animation moves.

@@ -215,7 +215,7 @@ LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertic
 LightingPass::Mapping LightingPass::mapping_of(const LightFrustum& frustum) {
     if (frustum.warp.warps()) return Mapping::warped;
     if (frustum.kind == Light::Kind::directional) return Mapping::directional;
-    return frustum.encoding.spot == SpotDepth::linear ? Mapping::linear_spot : Mapping::spot;
+    return frustum.stores_planes() ? Mapping::spot : Mapping::linear_spot;
 }
 
 const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping,

@@ -16,7 +16,7 @@
     X(ClipControl) X(CompileShader) X(CopyImageSubData) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateQueries) \
     X(CreateShader) X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) \
     X(DeleteQueries) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(Disable) X(DrawArrays) \
-    X(Enable) X(FrontFace) X(EnableVertexArrayAttrib) X(EndQuery) X(Finish) X(GenerateTextureMipmap) X(GetError) \
+    X(Enable) X(EnableVertexArrayAttrib) X(EndQuery) X(Finish) X(GenerateTextureMipmap) X(GetError) \
     X(GetIntegerv) X(GetNamedBufferSubData) X(GetProgramInfoLog) X(GetProgramiv) X(GetQueryObjectui64v) \
     X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage) X(GetUniformLocation) X(LinkProgram) X(MultiDrawElements) \
     X(NamedBufferStorage) X(NamedFramebufferDrawBuffers) X(NamedFramebufferReadBuffer) \

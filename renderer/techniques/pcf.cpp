@@ -68,10 +68,9 @@ class PcfExact final : public ShadowTechnique {
   private:
     /// Whether windows hold the box, and finding them costs less than they save.
     bool has_ranges(const ShadowMap& map) const {
-        // Ranges are planes of what is stored: a surface in linear depths is none.
-        const LightFrustum& frustum = map.shape.frustum;
-        const bool planes = frustum.kind != Light::Kind::spot || frustum.encoding.spot == SpotDepth::reciprocal;
-        return planes && skip_even_texels_ && 2 * gathers_per_side(map) + kWindowStep - 1 <= kWindowWidth &&
+        // Ranges are planes of what is stored.
+        return map.shape.frustum.stores_planes() && skip_even_texels_ &&
+               2 * gathers_per_side(map) + kWindowStep - 1 <= kWindowWidth &&
                map.shape.texel_count() <= kMostTexelsForRanges;
     }
 

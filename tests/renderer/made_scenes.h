@@ -139,6 +139,30 @@ inline std::vector<float> draw_visibility(const Scene& scene, const Camera& came
     return draw_visibility(scene, state, technique, settings_of(filter), shape, width, height);
 }
 
+/// How sampled visibility differs from the exact one, over the pixels of the penumbra.
+struct SamplingError {
+    int pixels = 0;
+    double mean = 0;
+    double deviation = 0;
+};
+
+inline SamplingError sampling_error(const std::vector<float>& sampled, const std::vector<float>& exact) {
+    SamplingError error;
+    double sum = 0;
+    double squares = 0;
+    for (size_t i = 0; i < exact.size(); ++i) {
+        if (exact[i] <= 0 || exact[i] >= 1) continue;
+        const double difference = sampled[i] - exact[i];
+        sum += difference;
+        squares += difference * difference;
+        ++error.pixels;
+    }
+    if (error.pixels == 0) return error;
+    error.mean = sum / error.pixels;
+    error.deviation = std::sqrt(squares / error.pixels);
+    return error;
+}
+
 /// Visibility of the box by adding up, texel by texel, what casts no shadow: `covers` says whether the caster
 /// covers a point of the light plane.
 template <typename Covers>

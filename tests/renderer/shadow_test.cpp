@@ -115,21 +115,11 @@ TEST_F(Shadow, SampledPcfIsWithoutBias) {
     };
     const std::vector<float> exact = draw(FilterMode::exact);
     const std::vector<float> sampled = draw(FilterMode::jittered);
-    double sum = 0;
-    double squares = 0;
-    int penumbra = 0;
-    for (size_t i = 0; i < exact.size(); ++i) {
-        if (exact[i] <= 0 || exact[i] >= 1) continue;
-        const double error = sampled[i] - exact[i];
-        sum += error;
-        squares += error * error;
-        ++penumbra;
-    }
-    ASSERT_GT(penumbra, 10000);
-    const double deviation = std::sqrt(squares / penumbra);
-    EXPECT_GT(deviation, 0.005) << "the two modes can't agree to the last bit";
-    EXPECT_LT(deviation, 0.08) << "16 stratified taps are better than this";
-    EXPECT_LT(std::abs(sum / penumbra), 4 * deviation / std::sqrt(penumbra));
+    const made::SamplingError error = made::sampling_error(sampled, exact);
+    ASSERT_GT(error.pixels, 10000);
+    EXPECT_GT(error.deviation, 0.005) << "the two modes can't agree to the last bit";
+    EXPECT_LT(error.deviation, 0.08) << "16 stratified taps are better than this";
+    EXPECT_LT(std::abs(error.mean), 4 * error.deviation / std::sqrt(error.pixels));
 }
 
 TEST_F(Shadow, HardIsOneTexel) {

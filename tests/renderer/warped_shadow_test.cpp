@@ -129,21 +129,11 @@ TEST_F(WarpedShadow, SampledPcfIsWithoutBias) {
     };
     const std::vector<float> exact = drawn(FilterMode::exact);
     const std::vector<float> sampled = drawn(FilterMode::jittered);
-    double sum = 0;
-    double squares = 0;
-    int penumbra = 0;
-    for (size_t i = 0; i < exact.size(); ++i) {
-        if (exact[i] <= 0 || exact[i] >= 1) continue;
-        const double error = sampled[i] - exact[i];
-        sum += error;
-        squares += error * error;
-        ++penumbra;
-    }
-    ASSERT_GT(penumbra, 5000);
-    const double deviation = std::sqrt(squares / penumbra);
-    EXPECT_GT(deviation, 0.005);
-    EXPECT_LT(deviation, 0.1);
-    EXPECT_LT(std::abs(sum / penumbra), 5 * deviation / std::sqrt(penumbra));
+    const made::SamplingError error = made::sampling_error(sampled, exact);
+    ASSERT_GT(error.pixels, 5000);
+    EXPECT_GT(error.deviation, 0.005);
+    EXPECT_LT(error.deviation, 0.1);
+    EXPECT_LT(std::abs(error.mean), 5 * error.deviation / std::sqrt(error.pixels));
 }
 
 TEST_F(WarpedShadow, ATiltedPlaneHasNoAcne) {
