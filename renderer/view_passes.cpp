@@ -218,14 +218,15 @@ LightingPass::Mapping LightingPass::mapping_of(const LightFrustum& frustum) {
     return frustum.stores_planes() ? Mapping::spot : Mapping::linear_spot;
 }
 
-const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping,
-                                         const LightPart& part) {
+const gl::Program& LightingPass::program(Source source, const ShadowTechnique& technique, const ShadowMap& map,
+                                         Show show, const LightPart& part) {
     std::vector<std::string_view> visibility;
     switch (part.visibility) {
-        case LightPart::Visibility::computed: visibility = technique.shader(); break;
+        case LightPart::Visibility::computed: visibility = technique.shader(map); break;
         case LightPart::Visibility::all_lit: visibility = {embedded::none_glsl}; break;
         case LightPart::Visibility::kept: visibility = {embedded::kept_glsl}; break;
     }
+    const Mapping mapping = mapping_of(map.shape.frustum);
     Key key{source, show, mapping, part.slice.has_value(), {}};
     for (const std::string_view text : visibility) key.technique.push_back(text.data());
     gl::Program& program = programs_[key];
@@ -248,8 +249,7 @@ const gl::Program& LightingPass::program(Source source, const ShadowTechnique& t
 
 void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, const ShadowTechnique& technique,
                                 const ShadowMap& map, const FrameTarget& target, const LightPart& part) {
-    const gl::Program& program =
-        this->program(Source::stored, technique, target.show, mapping_of(map.shape.frustum), part);
+    const gl::Program& program = this->program(Source::stored, technique, map, target.show, part);
     set_lighting_uniforms(program, scene, state, part);
     set_receiver_uniforms(program, map, state, target.height);
     set_ray_uniforms(program, state.camera, target);
@@ -289,8 +289,8 @@ void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, cons
     for (const bool textured : {false, true}) {
         const DrawList list = with_texture(scene, surfaces, textured);
         if (list.items.empty()) continue;
-        const gl::Program& program = this->program(textured ? Source::drawn_textured : Source::drawn, technique,
-                                                   target.show, mapping_of(map.shape.frustum), part);
+        const gl::Program& program =
+            this->program(textured ? Source::drawn_textured : Source::drawn, technique, map, target.show, part);
         set_lighting_uniforms(program, scene, state, part);
         set_receiver_uniforms(program, map, state, target.height);
         if (part.visibility == LightPart::Visibility::computed) technique.bind(program, map);

@@ -81,7 +81,7 @@ class LightingPass {
 
         auto operator<=>(const Key&) const = default;
     };
-    const gl::Program& program(Source source, const ShadowTechnique& technique, Show show, Mapping mapping,
+    const gl::Program& program(Source source, const ShadowTechnique& technique, const ShadowMap& map, Show show,
                                const LightPart& part);
 
     std::string name_;

@@ -134,11 +134,6 @@ float stored_at(vec2 texel) {
     return texelFetch(shadow_map, ivec2(clamp(texel, vec2(-1), map_size)) + kGuard, 0).r;
 }
 
-// The depths stored at the four texels that share this corner: from the upper left clockwise, as textureGather has them.
-vec4 stored_around(vec2 corner) {
-    return textureGather(shadow_map, (clamp(corner, vec2(-1), map_size + 1) + kGuard) * map_scale);
-}
-
 // Whether the light reaches the receiver past what the map holds at the texel around a point.
 float lit_at(Receiver receiver, vec2 point) {
     vec2 texel = floor(point);

@@ -41,7 +41,9 @@ class Esm final : public ShadowTechnique {
   public:
     explicit Esm(double margin) : margin_(margin) {}
 
-    std::vector<std::string_view> shader() const override { return {embedded::prefiltered_glsl, embedded::esm_glsl}; }
+    std::vector<std::string_view> shader(const ShadowMap&) const override {
+        return {embedded::prefiltered_glsl, embedded::esm_glsl};
+    }
 
     double reach(const LightFrustum&, double filter_radius) const override {
         return prefiltered_reach(filter_radius, margin_);

@@ -6,7 +6,7 @@ namespace {
 
 class Hard final : public ShadowTechnique {
   public:
-    std::vector<std::string_view> shader() const override { return {embedded::hard_glsl}; }
+    std::vector<std::string_view> shader(const ShadowMap&) const override { return {embedded::hard_glsl}; }
     bool takes_warp() const override { return true; }
     bool takes_linear_depth() const override { return true; }
     double reach(const LightFrustum&, double) const override { return 0; }

@@ -6,7 +6,7 @@ namespace {
 
 class None final : public ShadowTechnique {
   public:
-    std::vector<std::string_view> shader() const override { return {embedded::none_glsl}; }
+    std::vector<std::string_view> shader(const ShadowMap&) const override { return {embedded::none_glsl}; }
     bool reads_map() const override { return false; }
     bool takes_warp() const override { return true; }
     double reach(const LightFrustum&, double) const override { return 0; }

@@ -1,11 +1,13 @@
 // Percentage-closer filtering (Reeves et al. 1987): the share of a box or a disk around the receiver, in
 // the plane across the light, whose texels leave it lit.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "embedded/shaders.h"
 #include "renderer/depth_ranges.h"
 #include "renderer/techniques/taps.h"
+#include "renderer/texel_quads.h"
 #include "stimuli/error.h"
 #include "stimuli/number.h"
 
@@ -18,10 +20,28 @@ constexpr double kNarrowestExact = 1e-3;
 /// Finding the ranges of more takes as long as they save.
 constexpr size_t kMostTexelsForRanges = size_t{4} << 20;
 
+/// Packing a texel takes as long as four or five gathers save that find it packed. So maps are packed that have no more texels
+/// than this for each gather of a pixel: 2^17 texels are made up for by 2^17 pixels in penumbrae, a seventh of 1280 × 720.
+constexpr size_t kTexelsAGather = size_t{1} << 15;
+/// However wide the filter, packed maps take no more than 16 MiB, of memory that grows by doubling up to four times that.
+constexpr size_t kMostTexelsForQuads = size_t{1} << 20;
+
 /// Of a warped map, where its texels are smallest.
 glm::dvec2 radius_texels(const ShadowMap& map) {
     return map.filter_radius / map.shape.smallest_texel();
 }
+
+/// How many gathers along a row the shader's loop takes in a step.
+constexpr std::array<std::string_view, 4> kRuns{"const int kRun = 1;\n", "const int kRun = 2;\n",
+                                                "const int kRun = 3;\n", "const int kRun = 4;\n"};
+
+/// As few steps as there can be, and of those the ones that gather the least beyond what is asked for: of 9 three times 3.
+constexpr int gathers_a_run(int gathers) {
+    const int most = static_cast<int>(kRuns.size());
+    const int steps = (gathers + most - 1) / most;
+    return (gathers + steps - 1) / steps;
+}
+static_assert(gathers_a_run(1) == 1 && gathers_a_run(4) == 4 && gathers_a_run(5) == 3 && gathers_a_run(9) == 3);
 
 double width_texels(const ShadowMap& map) {
     const glm::dvec2 radius = radius_texels(map);
@@ -38,13 +58,16 @@ class PcfExact final : public ShadowTechnique {
   public:
     explicit PcfExact(bool skip_even_texels) : skip_even_texels_(skip_even_texels) {}
 
-    std::vector<std::string_view> shader() const override {
-        return {embedded::ranges_glsl, embedded::box_filter_glsl, embedded::pcf_exact_glsl};
+    std::vector<std::string_view> shader(const ShadowMap& map) const override {
+        return {embedded::ranges_glsl, embedded::box_filter_glsl,
+                has_quads(map) ? embedded::texel_quads_glsl : embedded::texel_gather_glsl,
+                kRuns[static_cast<size_t>(gathers_a_run(gathers_per_side(map)) - 1)], embedded::pcf_exact_glsl};
     }
 
     void prepare(const ShadowMap& map) override {
-        if (!has_ranges(map)) return;
-        ranges_.fill(map.memory.depth.id(), glm::ivec2(map.shape.width, map.shape.height) + 2 * kGuardTexels);
+        const glm::ivec2 size = glm::ivec2(map.shape.width, map.shape.height) + 2 * kGuardTexels;
+        if (has_ranges(map)) ranges_.fill(map.memory.depth.id(), size);
+        if (has_quads(map)) quads_.fill(map.memory.depth.id(), size);
     }
 
     bool takes_warp() const override { return true; }
@@ -59,6 +82,7 @@ class PcfExact final : public ShadowTechnique {
         gl::set_uniform(program, "gathers_per_side", gathers_per_side(map));
         gl::set_uniform(program, "with_ranges", has_ranges(map) ? 1 : 0);
         ranges_.bind(program);
+        if (has_quads(map)) quads_.bind();
     }
 
     Lookups lookups(const ShadowMap& map) const override {
@@ -74,6 +98,11 @@ class PcfExact final : public ShadowTechnique {
                map.shape.texel_count() <= kMostTexelsForRanges;
     }
 
+    static bool has_quads(const ShadowMap& map) {
+        const size_t gathers = static_cast<size_t>(gathers_per_side(map)) * gathers_per_side(map);
+        return map.shape.texel_count() <= std::min(gathers * kTexelsAGather, kMostTexelsForQuads);
+    }
+
     static int gathers_per_side(const ShadowMap& map) {
         // A box of width 2r touches at most floor(2r) + 2 texels, and no more than 2r + 1 where 2r is whole.
         // The law gives 2r = 6.94: 8 texels. The slack keeps rounding in 2r from costing a gather.
@@ -83,13 +112,16 @@ class PcfExact final : public ShadowTechnique {
 
     bool skip_even_texels_;
     DepthRanges ranges_;
+    TexelQuads quads_;
 };
 
 class PcfSampled final : public ShadowTechnique {
   public:
     PcfSampled(FilterMode filter, int taps) : taps_(filter, taps, "--taps") {}
 
-    std::vector<std::string_view> shader() const override { return {embedded::taps_glsl, embedded::pcf_sampled_glsl}; }
+    std::vector<std::string_view> shader(const ShadowMap&) const override {
+        return {embedded::taps_glsl, embedded::pcf_sampled_glsl};
+    }
 
     bool takes_warp() const override { return true; }
     bool takes_linear_depth() const override { return true; }

@@ -36,7 +36,9 @@ class PcssSampled final : public ShadowTechnique {
 
     bool measures_need() const override { return true; }
 
-    std::vector<std::string_view> shader() const override { return {embedded::taps_glsl, embedded::pcss_glsl}; }
+    std::vector<std::string_view> shader(const ShadowMap&) const override {
+        return {embedded::taps_glsl, embedded::pcss_glsl};
+    }
 
     double reach(const LightFrustum& frustum, double) const override { return search_.reach() * search_reach(frustum); }
 
@@ -60,7 +62,7 @@ class PcssLevels final : public ShadowTechnique {
     explicit PcssLevels(const TechniqueSettings& settings)
         : levels_(settings.skip_even_texels), slope_(settings.law_slope) {}
 
-    std::vector<std::string_view> shader() const override {
+    std::vector<std::string_view> shader(const ShadowMap&) const override {
         return {embedded::ranges_glsl, embedded::box_filter_glsl, embedded::pcss_levels_glsl};
     }
 

@@ -65,8 +65,9 @@ class ShadowTechnique {
     ShadowTechnique(const ShadowTechnique&) = delete;
     ShadowTechnique& operator=(const ShadowTechnique&) = delete;
 
-    /// GLSL that defines `float visibility(Receiver)`, in parts; see shaders/receiver.glsl.
-    virtual std::vector<std::string_view> shader() const = 0;
+    /// GLSL that defines `float visibility(Receiver)` for a map that was prepared, in parts; see shaders/receiver.glsl. Parts are
+    /// told apart by where their text is, which is to stay.
+    virtual std::vector<std::string_view> shader(const ShadowMap& map) const = 0;
 
     /// Whether it reads the shadow map; without, no depth pass is drawn.
     virtual bool reads_map() const { return true; }

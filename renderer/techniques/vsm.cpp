@@ -30,7 +30,9 @@ class Vsm final : public ShadowTechnique {
   public:
     Vsm(double bleeding_reduction, double margin) : bleeding_reduction_(bleeding_reduction), margin_(margin) {}
 
-    std::vector<std::string_view> shader() const override { return {embedded::prefiltered_glsl, embedded::vsm_glsl}; }
+    std::vector<std::string_view> shader(const ShadowMap&) const override {
+        return {embedded::prefiltered_glsl, embedded::vsm_glsl};
+    }
 
     double reach(const LightFrustum&, double filter_radius) const override {
         return prefiltered_reach(filter_radius, margin_);
