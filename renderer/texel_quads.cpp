@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstdint>
 
 #include "embedded/shaders.h"
 
@@ -12,6 +13,10 @@ namespace {
 /// Beyond a power of two: what the guard texels of a map of such a size add.
 constexpr int kSpare = 3;
 
+int64_t area(const glm::ivec2& size) {
+    return int64_t{size.x} * size.y;
+}
+
 }  // namespace
 
 TexelQuads::TexelQuads()
@@ -20,10 +25,16 @@ TexelQuads::TexelQuads()
 
 void TexelQuads::reserve(const glm::ivec2& count) {
     if (count.x <= capacity_.x && count.y <= capacity_.y) return;
+    GLint most = 0;
+    gl::GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    glm::ivec2 wanted;
     for (const int axis : {0, 1}) {
-        const auto wanted = std::bit_ceil(static_cast<unsigned>(std::max(count[axis] - kSpare, 1)));
-        capacity_[axis] = std::max(capacity_[axis], static_cast<int>(wanted) + kSpare);
+        const auto doubled = std::bit_ceil(static_cast<unsigned>(std::max(count[axis] - kSpare, 1)));
+        wanted[axis] = std::clamp(static_cast<int>(doubled) + kSpare, count[axis], std::max(most, count[axis]));
     }
+    // A wide map after a high one would take the product of both.
+    const glm::ivec2 both = glm::max(capacity_, wanted);
+    capacity_ = area(both) <= 4 * area(wanted) ? both : wanted;
     quads_ = gl::make_texture(GL_RGBA32F, capacity_.x, capacity_.y);
     framebuffer_ = gl::make_framebuffer(quads_.id(), 0);
 }

@@ -26,11 +26,12 @@ class TexelQuads {
 
     /// RGBA32F; quad (i, j) is texel (i, j).
     GLuint texture() const { return quads_.id(); }
+    /// Width and height of that texture: at least those of what was packed last.
+    const glm::ivec2& texture_size() const { return capacity_; }
 
   private:
     void reserve(const glm::ivec2& count);
 
-    /// Quads that there is memory for.
     glm::ivec2 capacity_{0};
     gl::Program program_;
     gl::VertexArray no_vertices_;

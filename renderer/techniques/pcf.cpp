@@ -20,10 +20,10 @@ constexpr double kNarrowestExact = 1e-3;
 /// Finding the ranges of more takes as long as they save.
 constexpr size_t kMostTexelsForRanges = size_t{4} << 20;
 
-/// Packing a texel takes as long as four or five gathers save that find it packed. So maps are packed that have no more texels
-/// than this for each gather of a pixel: 2^17 texels are made up for by 2^17 pixels in penumbrae, a seventh of 1280 × 720.
+/// Packing a texel takes as long as four or five gathers save that find it packed. Maps are packed that have no more texels than
+/// this for each gather of a pixel: 2^17 pixels in penumbrae, a seventh of 1280 × 720, then make up for it.
 constexpr size_t kTexelsAGather = size_t{1} << 15;
-/// However wide the filter, packed maps take no more than 16 MiB, of memory that grows by doubling up to four times that.
+/// However wide the filter is: 16 MiB, in memory that grows by doubling.
 constexpr size_t kMostTexelsForQuads = size_t{1} << 20;
 
 /// Of a warped map, where its texels are smallest.

@@ -98,7 +98,7 @@ class ShadowTechnique {
     struct Lookups {
         int search = 0;
         int filter = 0;
-        /// What each is: gathers of four texels, or taps.
+        /// What each is: gathers of four texels, from the map or from where it is packed (texel_quads.h), or taps.
         bool gathers = false;
         /// Whether they are into a map that was filtered before.
         bool prefiltered = false;
