@@ -6,13 +6,13 @@
 namespace stairstep {
 namespace {
 
-// How they were found: docs/skips.md.
+// In units of what storing a fragment takes, some 10 ns of a processor. How they were found: docs/skips.md.
 /// k: fragments' worth of idle lanes along the edges of a triangle of one fragment.
-constexpr double kIdleLanes = 3.6;
-/// r.
-constexpr double kReadingCost = 0.6;
+constexpr double kIdleLanes = 6;
+/// r: a pixel's surface is read, and its point found where the pixel's ray meets the plane.
+constexpr double kReadingCost = 1.25;
 /// t.
-constexpr double kTriangleCost = 1;
+constexpr double kTriangleCost = 10;
 /// By how much a change must pay: less is the model's error.
 constexpr double kWorthChanging = 1.1;
 

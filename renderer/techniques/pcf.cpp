@@ -19,7 +19,7 @@ constexpr double kNarrowestExact = 1e-3;
 constexpr size_t kMostTexelsForRanges = size_t{4} << 20;
 
 /// What a gather adds to ShadowTechnique::lighting_cost, where the ranges of most windows tell that none is needed.
-constexpr double kGatherCost = 0.1;
+constexpr double kGatherCost = 0.12;
 
 /// Of a warped map, where its texels are smallest.
 glm::dvec2 radius_texels(const ShadowMap& map) {

@@ -18,7 +18,7 @@ constexpr int kNearerLevels = 4;
 /// Depths change less over a penumbra than visibility does: texels this much larger than the filter's do for their mean.
 constexpr double kEstimateTexel = 2;
 /// ShadowTechnique::lighting_cost on levels: most pixels need one look.
-constexpr double kLevelsCost = 7;
+constexpr double kLevelsCost = 7.6;
 
 void set_softness(const gl::Program& program, const ShadowMap& map) {
     gl::set_uniform(program, "softness", glm::vec2(map.shape.frustum.softness / map.shape.texel()));

@@ -21,7 +21,7 @@ inline double prefiltered_reach(double filter_radius, double margin) {
 }
 
 /// ShadowTechnique::lighting_cost.
-inline constexpr double kPrefilteredCost = 2.5;
+inline constexpr double kPrefilteredCost = 2;
 
 inline constexpr ShadowTechnique::Lookups kPrefilteredLookups{.search = 0, .filter = 1, .prefiltered = true};
 
