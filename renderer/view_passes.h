@@ -2,7 +2,8 @@
 //
 // Stored: of each pixel the plane of its nearest triangle (eye space, 32-bit floats: where the pixel's ray meets it is the
 // surface point, as exact as the triangle), its normal and colour. The lighting then runs once a pixel, over whole blocks of
-// pixels: no surface that another one hides is lit, and small triangles don't leave most of a block's lanes idle.
+// pixels: no surface that another one hides is lit, and small triangles don't leave most of a block's lanes idle. Which costs less
+// depends on the picture (surface_choice.h).
 #pragma once
 
 #include <array>

@@ -109,7 +109,7 @@ class ShadowTechnique {
     virtual Lookups lookups(const ShadowMap& map) const = 0;
 
     /// What lighting a surface's fragment takes, in units of what storing one takes (surface_choice.h), ≥ kUnshadowedCost; by
-    /// measurement, of maps that the law sizes.
+    /// measurement (docs/skips.md), of maps that the law sizes.
     virtual double lighting_cost(const ShadowMap& map) const = 0;
 };
 
