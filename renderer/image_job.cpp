@@ -73,6 +73,11 @@ double frame_ms(const Rendering& rendering) {
     return median_of(rendering.times, [](const FrameTime& t) { return t.cpu_ms(); });
 }
 
+/// Whether most frames stored their surfaces; some must (surface_choice.h).
+bool mostly_stored(const Rendering& rendering) {
+    return median_of(rendering.times, [](const FrameTime& t) { return t.stored ? 1.0 : 0.0; }) > 0.5;
+}
+
 /// What is drawn.
 struct Subject {
     const Scene& model;
@@ -181,6 +186,7 @@ ordered_json describe(const Rendering& rendering, const std::string& file, doubl
                                           : "none";
     json[lookup_kind] = lookups.filter;
     if (lookups.search > 0) json["search_" + lookup_kind] = lookups.search;
+    json["surfaces"] = mostly_stored(rendering) ? "stored" : "drawn";
     json["frame_ms"] = frame_ms(rendering);
     json["depth_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.depth.cpu_ms; });
     json["lighting_ms"] = median_of(rendering.times, [](const FrameTime& t) { return t.lighting.cpu_ms; });

@@ -89,6 +89,7 @@ struct ImageJob {
 ///     extrapolates             whether that texel lies outside the law's range
 ///     filter                   exact, sampled, prefiltered or none; then `gathers` or `taps`: lookups a pixel, and for pcss those of
 ///                              its search, search_gathers or search_taps
+///     surfaces                 stored or drawn: how most frames came to light them (surface_choice.h)
 ///     frame_ms, depth_ms, lighting_ms         medians on the CPU's clock
 ///     fit_ms, prepare_ms, need_ms             likewise: fitting the light's frustum, what a technique makes of its map, and
 ///                                             what it finds the next frame needs

@@ -151,10 +151,22 @@ bool LightShadow::Seen::same_as(const Seen& other) const {
            movers == other.movers && shape.texels_equal(other.shape);
 }
 
-void LightShadow::keep(const Seen& seen, const FrameTarget& target, LightPart& part) {
+LightShadow::Seen LightShadow::seen_in(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
+                                       const ShadowMapShape& shape) {
+    return {scene.serial, target.serial, state.camera, state.light, state.movers, shape};
+}
+
+bool LightShadow::repeats(Shown shown, const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
+                          const FrameTarget& target) const {
+    return keeps() && shown == Shown::shadow && seen_ && seen_->same_as(seen_in(scene, state, target, shape));
+}
+
+void LightShadow::keep(const Seen& seen, bool stored, const FrameTarget& target, LightPart& part) {
     const bool same = seen_ && seen_->same_as(seen);
     seen_ = seen;
     if (!same) kept_is_filled_ = false;
+    // Surfaces that are lit as they are drawn are covered by others.
+    if (!stored) return;
     if (kept_is_filled_) {
         part.visibility = LightPart::Visibility::kept;
         part.kept = kept_.id();
@@ -185,8 +197,8 @@ void LightShadow::light(Shown shown, const GpuScene& scene, const SceneState& st
         kept_is_filled_ = false;
         // The first light brings the sky.
         if (shown == Shown::nothing && part.index > 0) return;
-    } else if (settings_.skips.unchanged_pixels && stored && technique_->reads_map()) {
-        keep({scene.serial, target.serial, state.camera, state.light, state.movers, map_.shape}, target, part);
+    } else if (keeps()) {
+        keep(seen_in(scene, state, target, map_.shape), stored, target, part);
     }
     measured_ = part.need;
     timer.start();

@@ -36,6 +36,16 @@ class LightShadow {
     void update_map(const ShadowMapShape& shape, Shown shown, const GpuScene& scene, const SceneState& state,
                     gl::PassTimer& timer, FrameTime& time);
 
+    /// Whether the last frame had the same pixels, whose visibility is kept then if they are stored. `state` is the whole
+    /// camera's.
+    bool repeats(Shown shown, const ShadowMapShape& shape, const GpuScene& scene, const SceneState& state,
+                 const FrameTarget& target) const;
+
+    /// What lighting a fragment costs, given what the picture shows: ShadowTechnique::lighting_cost, of the map as last drawn.
+    double lighting_cost(Shown shown) const {
+        return shown == Shown::shadow ? technique_->lighting_cost(map_) : kUnshadowedCost;
+    }
+
     /// Lights the picture with what it shows of the light: `part` says which light and slice this is. Surfaces that are stored already
     /// aren't drawn again.
     void light(Shown shown, const GpuScene& scene, const SceneState& state, const DrawList& surfaces, bool stored,
@@ -64,10 +74,14 @@ class LightShadow {
     /// Memory for maps of up to so many texels a side, and for what the technique keeps beside them.
     void reserve(int capacity);
 
-    /// Decides whether this part's visibility is kept, and from when it can be read.
     /// For filters that reach farther by a margin, light plane.
     LightFrustum fit(const GpuScene& scene, const SceneState& state, double aspect, double margin) const;
-    void keep(const Seen& seen, const FrameTarget& target, LightPart& part);
+    static Seen seen_in(const GpuScene& scene, const SceneState& state, const FrameTarget& target,
+                        const ShadowMapShape& shape);
+    /// Whether pixels are compared from frame to frame.
+    bool keeps() const { return settings_.skips.unchanged_pixels && technique_->reads_map(); }
+    /// Decides whether this part's visibility is kept, and from when it can be read.
+    void keep(const Seen& seen, bool stored, const FrameTarget& target, LightPart& part);
 
     ShadowSettings settings_;
     glm::dvec3 middle_;

@@ -70,21 +70,42 @@ void ShadowRenderer::match_lights(const GpuScene& scene, const SceneState& state
     }
 }
 
-void ShadowRenderer::ask(std::vector<Turn>& turns, const GpuScene& scene, const SceneState& state,
-                         const FrameTarget& target) {
-    std::vector<ShadowQuestion> questions;
-    std::vector<size_t> asking;
+ShadowRenderer::Asked ShadowRenderer::questions_of(const std::vector<Turn>& turns) {
+    Asked asked;
     for (size_t i = 0; i < turns.size(); ++i) {
         if (const auto question = shadows_[i].question(turns[i].shape, turns[i].state, turns[i].part)) {
-            questions.push_back(*question);
-            asking.push_back(i);
+            asked.questions.push_back(*question);
+            asked.turns.push_back(i);
         }
     }
-    const std::vector<Shown> answers = query_.ask(scene, state, target, questions);
+    return asked;
+}
+
+void ShadowRenderer::ask(const Asked& asked, std::vector<Turn>& turns, const GpuScene& scene, const SceneState& state,
+                         const FrameTarget& target) {
+    const std::vector<Shown> answers = query_.ask(scene, state, target, asked.questions);
     for (size_t i = 0; i < answers.size(); ++i) {
-        turns[asking[i]].shown = answers[i];
-        shadows_[asking[i]].answered(answers[i]);
+        turns[asked.turns[i]].shown = answers[i];
+        shadows_[asked.turns[i]].answered(answers[i]);
     }
+}
+
+void ShadowRenderer::choose_whether_to_store(const std::vector<Turn>& turns, bool asks, const GpuScene& scene,
+                                             const SceneState& state, const FrameTarget& target) {
+    if (const auto fragments = surface_pass_.take_fragments()) {
+        choice_.counts = {.fragments = static_cast<double>(*fragments),
+                          .pixels = static_cast<double>(lighting_pass_.take_pixels().value_or(0)),
+                          .triangles = static_cast<double>(stored_triangles_)};
+    }
+    std::vector<double> costs;
+    bool repeats = false;
+    for (size_t i = 0; i < turns.size(); ++i) {
+        costs.push_back(shadows_[i].lighting_cost(turns[i].shown));
+        SceneState lit = turns[i].state;
+        lit.camera = state.camera;
+        repeats = repeats || shadows_[i].repeats(turns[i].shown, turns[i].shape, scene, lit, target);
+    }
+    choice_ = choose_surfaces(choice_, costs, asks || repeats);
 }
 
 FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool again, const GpuScene& scene,
@@ -92,8 +113,8 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool agai
     const double aspect = static_cast<double>(target.width) / target.height;
     const size_t slices = settings_.cascades.count;
     const size_t lights = 1 + state.more_lights.size();
-    // Surfaces of several samples can't be stored.
-    const bool stored = settings_.skips.hidden_surfaces && target.samples == 1;
+    // Surfaces of several samples can't be.
+    const bool may_store = settings_.skips.hidden_surfaces && target.samples == 1;
     FrameTime time;
 
     match_lights(scene, state, aspect);
@@ -126,13 +147,20 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool agai
             if (settings_.skips.unseen_shadows && shape.frustum.shadowless) shown = Shown::light;
         }
     });
+    Asked asked;
+    if (may_store) {
+        asked = questions_of(turns);
+        choose_whether_to_store(turns, !asked.questions.empty(), scene, state, target);
+        time.stored = choice_.stored;
+    }
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    if (stored) {
+    if (time.stored) {
         timer.start();
         surface_pass_.draw(scene, state, surfaces, target);
+        stored_triangles_ = triangle_count(surfaces);
         time.surfaces = timer.stop();
         timer.start();
-        ask(turns, scene, state, target);
+        ask(asked, turns, scene, state, target);
         time.query = timer.stop();
     }
     for (size_t i = 0; i < turns.size(); ++i) {
@@ -141,7 +169,7 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool agai
         // The picture is the whole camera's.
         SceneState lit = own;
         lit.camera = state.camera;
-        shadows_[i].light(shown, scene, lit, surfaces, stored, target, part, lighting_pass_, timer, time);
+        shadows_[i].light(shown, scene, lit, surfaces, time.stored, target, part, lighting_pass_, timer, time);
     }
     gl::throw_on_error("drawing a frame");
     return time;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/light_shadow.h"
+#include "renderer/surface_choice.h"
 
 namespace stairstep {
 
@@ -40,8 +41,18 @@ class ShadowRenderer {
         ShadowMapShape shape;
         Shown shown = Shown::shadow;
     };
+    /// What to ask of the stored surfaces, and the turns that it is about.
+    struct Asked {
+        std::vector<ShadowQuestion> questions;
+        std::vector<size_t> turns;
+    };
+    Asked questions_of(const std::vector<Turn>& turns);
     /// Finds out what the stored surfaces show of each light.
-    void ask(std::vector<Turn>& turns, const GpuScene& scene, const SceneState& state, const FrameTarget& target);
+    void ask(const Asked& asked, std::vector<Turn>& turns, const GpuScene& scene, const SceneState& state,
+             const FrameTarget& target);
+    /// Whether this frame stores its surfaces, if it can.
+    void choose_whether_to_store(const std::vector<Turn>& turns, bool asks, const GpuScene& scene,
+                                 const SceneState& state, const FrameTarget& target);
     /// `again`: of a frame that was drawn before, to settle sizes.
     FrameTime draw_once(const ShadowMapShape* first_shape, bool again, const GpuScene& scene, const SceneState& state,
                         const FrameTarget& target, gl::PassTimer& timer);
@@ -54,6 +65,9 @@ class ShadowRenderer {
     SurfacePass surface_pass_;
     LightingPass lighting_pass_;
     ShadowQuery query_;
+    SurfaceChoice choice_;
+    /// That the last stored surfaces were drawn from.
+    size_t stored_triangles_ = 0;
     std::vector<LightShadow> shadows_;
 };
 

@@ -15,7 +15,7 @@ namespace stairstep {
 
 /// What frames leave out because nothing of it would be seen. The picture is the same with and without.
 struct Skips {
-    /// The lighting of surfaces that others hide: surfaces are stored first, then lit.
+    /// The lighting of surfaces that others hide: where it costs less, surfaces are stored first, then lit.
     bool hidden_surfaces = true;
     /// Most of what nearer surfaces cover: they are drawn front to back.
     bool overdraw = true;

@@ -199,15 +199,17 @@ void set_ray_uniforms(const gl::Program& program, const Camera& camera, const Fr
 SurfacePass::SurfacePass() : programs_{make_surface_program(false), make_surface_program(true)} {}
 
 void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
-                       const FrameTarget& target) const {
+                       const FrameTarget& target) {
     const glm::vec4 nothing(0);
     // Where there is no plane, the material is never shown.
     gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_COLOR, 0, &nothing.x);
     gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_DEPTH, 0, &kFarthestDepth);
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.surface_framebuffer.id());
+    fragments_.start();
     for (const bool textured : {false, true}) {
         draw_surfaces(programs_[textured], scene, state, with_texture(scene, surfaces, textured), target);
     }
+    fragments_.stop();
 }
 
 LightingPass::LightingPass(std::string name) : name_(std::move(name)), no_vertices_(gl::make_vertex_array()) {}
@@ -270,7 +272,9 @@ void LightingPass::light_stored(const GpuScene& scene, const SceneState& state, 
     gl::BindTextureUnit(4, target.planes.id());
     gl::BindTextureUnit(5, target.materials.id());
     if (part.visibility == LightPart::Visibility::kept) gl::BindTextureUnit(6, part.kept);
+    if (part.index == 0) pixels_.start();
     gl::DrawArrays(GL_TRIANGLES, 0, 3);
+    if (part.index == 0) pixels_.stop();
     gl::DepthMask(GL_TRUE);
     gl::Disable(GL_BLEND);
 }

@@ -2,7 +2,8 @@
 //
 // Stored: of each pixel the plane of its nearest triangle (eye space, 32-bit floats: where the pixel's ray meets it is the
 // surface point, as exact as the triangle), its normal and colour. The lighting then runs once a pixel, over whole blocks of
-// pixels: no surface that another one hides is lit, and small triangles don't leave most of a block's lanes idle.
+// pixels: no surface that another one hides is lit, and small triangles don't leave most of a block's lanes idle. Which costs less
+// depends on the picture (surface_choice.h).
 #pragma once
 
 #include <array>
@@ -13,6 +14,7 @@
 #include "renderer/draw_list.h"
 #include "renderer/frame_target.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/sample_counter.h"
 #include "renderer/techniques/technique.h"
 
 namespace stairstep {
@@ -26,10 +28,13 @@ class SurfacePass {
     SurfacePass();
 
     /// Stores the nearest of the surfaces in a target of one sample.
-    void draw(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
-              const FrameTarget& target) const;
+    void draw(const GpuScene& scene, const SceneState& state, const DrawList& surfaces, const FrameTarget& target);
+
+    /// How often it has stored a pixel since the last call: what a nearer surface then covered, too. Nullopt if it hasn't drawn.
+    std::optional<uint64_t> take_fragments() { return fragments_.take(); }
 
   private:
+    gl::SampleCounter fragments_;
     /// Of materials without and with a texture: looking one up costs as much as all the rest.
     std::array<gl::Program, 2> programs_;
 };
@@ -65,6 +70,10 @@ class LightingPass {
                   const ShadowTechnique& technique, const ShadowMap& map, const FrameTarget& target,
                   const LightPart& part);
 
+    /// How many stored pixels it has lit with the first light since the last call: all slices' together. Nullopt if there was
+    /// no such pass.
+    std::optional<uint64_t> take_pixels() { return pixels_.take(); }
+
   private:
     enum class Source { drawn, drawn_textured, stored };
     /// How places and depths in the map follow from places in the world.
@@ -86,6 +95,7 @@ class LightingPass {
 
     std::string name_;
     gl::VertexArray no_vertices_;
+    gl::SampleCounter pixels_;
     /// Made when they are first needed.
     std::map<Key, gl::Program> programs_;
 };

@@ -100,4 +100,10 @@ Query make_timer_query() {
     return Query(id);
 }
 
+Query make_sample_query() {
+    GLuint id = 0;
+    CreateQueries(GL_SAMPLES_PASSED, 1, &id);
+    return Query(id);
+}
+
 }  // namespace stairstep::gl

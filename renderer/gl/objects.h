@@ -89,4 +89,7 @@ Buffer make_read_buffer(size_t bytes);
 /// A timer query (GL_TIME_ELAPSED).
 Query make_timer_query();
 
+/// A query that counts samples (GL_SAMPLES_PASSED).
+Query make_sample_query();
+
 }  // namespace stairstep::gl

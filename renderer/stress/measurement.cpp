@@ -231,9 +231,11 @@ void measure_course(Measurement& one, const Condition& condition, const Techniqu
     };
     const int last = condition.steps / kPeriod * kPeriod;
     for (int step = 0; step <= last; ++step) {
-        const std::vector<float> values = draw(step);
+        std::vector<float> values = draw(step);
         one.nan_pixels += strange_pixels(values);
         if (step % kPeriod != 0 || step < kSettlingSteps) continue;
+        // Frames that are compared are all drawn in the same way, to the last bit: one that repeats the last is stored.
+        values = draw(step);
         if (step == kSettlingSteps) {
             reference = values;
             before = resident_kib();

@@ -60,6 +60,7 @@ class Esm final : public ShadowTechnique {
     }
 
     Lookups lookups(const ShadowMap&) const override { return kPrefilteredLookups; }
+    double lighting_cost(const ShadowMap&) const override { return kPrefilteredCost; }
 
   private:
     double margin_;

@@ -11,6 +11,7 @@ class Hard final : public ShadowTechnique {
     bool takes_linear_depth() const override { return true; }
     double reach(const LightFrustum&, double) const override { return 0; }
     Lookups lookups(const ShadowMap&) const override { return {0, 1, false}; }
+    double lighting_cost(const ShadowMap&) const override { return kUnshadowedCost + kReceiverCost; }
 };
 
 }  // namespace

@@ -11,6 +11,7 @@ class None final : public ShadowTechnique {
     bool takes_warp() const override { return true; }
     double reach(const LightFrustum&, double) const override { return 0; }
     Lookups lookups(const ShadowMap&) const override { return {}; }
+    double lighting_cost(const ShadowMap&) const override { return kUnshadowedCost; }
 };
 
 }  // namespace

@@ -26,6 +26,9 @@ constexpr size_t kTexelsAGather = size_t{1} << 15;
 /// However wide the filter is: 16 MiB, in memory that grows by doubling.
 constexpr size_t kMostTexelsForQuads = size_t{1} << 20;
 
+/// What a gather adds to ShadowTechnique::lighting_cost, where the ranges of most windows tell that none is needed.
+constexpr double kGatherCost = 0.12;
+
 /// Of a warped map, where its texels are smallest.
 glm::dvec2 radius_texels(const ShadowMap& map) {
     return map.filter_radius / map.shape.smallest_texel();
@@ -89,6 +92,10 @@ class PcfExact final : public ShadowTechnique {
         return {0, gathers_per_side(map) * gathers_per_side(map), true};
     }
 
+    double lighting_cost(const ShadowMap& map) const override {
+        return kUnshadowedCost + kReceiverCost + kGatherCost * lookups(map).filter;
+    }
+
   private:
     /// Whether windows hold the box, and finding them costs less than they save.
     bool has_ranges(const ShadowMap& map) const {
@@ -134,6 +141,10 @@ class PcfSampled final : public ShadowTechnique {
     }
 
     Lookups lookups(const ShadowMap&) const override { return {0, taps_.count(), false}; }
+
+    double lighting_cost(const ShadowMap&) const override {
+        return kUnshadowedCost + kReceiverCost + kTapCost * taps_.count();
+    }
 
   private:
     TapSet taps_;

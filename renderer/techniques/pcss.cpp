@@ -17,6 +17,8 @@ constexpr double kSearchRadius = 2;
 constexpr int kNearerLevels = 4;
 /// Depths change less over a penumbra than visibility does: texels this much larger than the filter's do for their mean.
 constexpr double kEstimateTexel = 2;
+/// ShadowTechnique::lighting_cost on levels: most pixels need one look.
+constexpr double kLevelsCost = 7.6;
 
 void set_softness(const gl::Program& program, const ShadowMap& map) {
     gl::set_uniform(program, "softness", glm::vec2(map.shape.frustum.softness / map.shape.texel()));
@@ -50,6 +52,10 @@ class PcssSampled final : public ShadowTechnique {
     }
 
     Lookups lookups(const ShadowMap&) const override { return {search_.count(), filter_.count(), false}; }
+
+    double lighting_cost(const ShadowMap&) const override {
+        return kUnshadowedCost + kReceiverCost + kTapCost * (search_.count() + filter_.count());
+    }
 
   private:
     TapSet filter_;
@@ -94,6 +100,8 @@ class PcssLevels final : public ShadowTechnique {
         const int search = 2 * gathers(kSearchRadius + 0.5) + 2 * gathers(2 * slope_ / kEstimateTexel + 0.5);
         return {search, gathers(2 * slope_), true};
     }
+
+    double lighting_cost(const ShadowMap&) const override { return kLevelsCost; }
 
   private:
     MapLevels levels_;

@@ -20,6 +20,9 @@ inline double prefiltered_reach(double filter_radius, double margin) {
     return filter_radius + std::max(margin, filter_radius / 8);
 }
 
+/// ShadowTechnique::lighting_cost.
+inline constexpr double kPrefilteredCost = 2;
+
 inline constexpr ShadowTechnique::Lookups kPrefilteredLookups{.search = 0, .filter = 1, .prefiltered = true};
 
 }  // namespace stairstep

@@ -5,6 +5,9 @@
 
 namespace stairstep {
 
+/// What a tap adds to ShadowTechnique::lighting_cost.
+inline constexpr double kTapCost = 0.16;
+
 /// A set of taps on the GPU; the shader's `tap(set, i)` gives its places in units of the radius.
 class TapSet {
   public:

@@ -57,6 +57,10 @@ struct TechniqueSettings {
     bool skip_even_texels = true;
 };
 
+/// What lighting a fragment takes where no shadow is computed, and what finding its place in the map adds: see lighting_cost.
+inline constexpr double kUnshadowedCost = 1.3;
+inline constexpr double kReceiverCost = 0.4;
+
 /// A technique, ready for a scene's maps.
 class ShadowTechnique {
   public:
@@ -104,6 +108,10 @@ class ShadowTechnique {
         bool prefiltered = false;
     };
     virtual Lookups lookups(const ShadowMap& map) const = 0;
+
+    /// What lighting a surface's fragment takes, in units of what storing one takes (surface_choice.h), ≥ kUnshadowedCost; by
+    /// measurement (docs/skips.md), of maps that the law sizes.
+    virtual double lighting_cost(const ShadowMap& map) const = 0;
 };
 
 /// A line of the list of techniques.

@@ -46,6 +46,7 @@ class Vsm final : public ShadowTechnique {
     }
 
     Lookups lookups(const ShadowMap&) const override { return kPrefilteredLookups; }
+    double lighting_cost(const ShadowMap&) const override { return kPrefilteredCost; }
 
   private:
     double bleeding_reduction_;

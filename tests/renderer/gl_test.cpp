@@ -5,6 +5,7 @@
 #include "renderer/gl/context.h"
 #include "renderer/gl/pass_timer.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/sample_counter.h"
 #include "stimuli/error.h"
 #include "tests/renderer/made_contexts.h"
 
@@ -39,6 +40,25 @@ class GlOn : public testing::TestWithParam<gl::ContextKind> {
 
 INSTANTIATE_TEST_SUITE_P(EveryKind, GlOn, testing::ValuesIn(kContextKinds),
                          [](const auto& info) { return std::string(gl::name(info.param)); });
+
+// Of the triangle's legs of 48.5 px: pixels (x, y) with x + y ≤ 47.
+TEST_P(GlOn, SamplesAreCounted) {
+    constexpr uint64_t kTriangle = 48 * 49 / 2;
+    gl::SampleCounter counter;
+    EXPECT_EQ(counter.take(), std::nullopt);
+    for (const int times : {1, 3, 2}) {
+        for (int i = 0; i < times; ++i) {
+            counter.start();
+            triangle_picture();
+            counter.stop();
+        }
+        // Of this nothing is counted.
+        triangle_picture();
+        EXPECT_EQ(counter.take(), times * kTriangle);
+        EXPECT_EQ(counter.take(), std::nullopt);
+    }
+    gl::throw_on_error("counting samples");
+}
 
 TEST_P(GlOn, SaysWhatItRunsOn) {
     EXPECT_EQ(context_->describe().kind, GetParam());
