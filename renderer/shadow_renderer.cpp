@@ -105,7 +105,7 @@ void ShadowRenderer::choose_whether_to_store(const std::vector<Turn>& turns, boo
         lit.camera = state.camera;
         repeats = repeats || shadows_[i].repeats(turns[i].shown, turns[i].shape, scene, lit, target);
     }
-    choice_ = choose_surfaces(choice_, costs, asks || repeats);
+    choice_ = choose_surfaces(choice_, costs, asks || repeats || !settings_.skips.needless_storing);
 }
 
 FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool again, const GpuScene& scene,

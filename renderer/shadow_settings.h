@@ -17,6 +17,8 @@ namespace stairstep {
 struct Skips {
     /// The lighting of surfaces that others hide: where it costs less, surfaces are stored first, then lit.
     bool hidden_surfaces = true;
+    /// Storing surfaces where lighting them as they are drawn costs less (surface_choice.h).
+    bool needless_storing = true;
     /// Most of what nearer surfaces cover: they are drawn front to back.
     bool overdraw = true;
     /// Back faces of solids.
@@ -44,10 +46,15 @@ struct SkipName {
 };
 
 inline constexpr SkipName kSkips[]{
-    {"hidden-surfaces", &Skips::hidden_surfaces}, {"overdraw", &Skips::overdraw},
-    {"back-faces", &Skips::back_faces},           {"unseen-triangles", &Skips::unseen_triangles},
-    {"unseen-shadows", &Skips::unseen_shadows},   {"hidden-shadows", &Skips::hidden_shadows},
-    {"unchanged-maps", &Skips::unchanged_maps},   {"unchanged-pixels", &Skips::unchanged_pixels},
+    {"hidden-surfaces", &Skips::hidden_surfaces},
+    {"needless-storing", &Skips::needless_storing},
+    {"overdraw", &Skips::overdraw},
+    {"back-faces", &Skips::back_faces},
+    {"unseen-triangles", &Skips::unseen_triangles},
+    {"unseen-shadows", &Skips::unseen_shadows},
+    {"hidden-shadows", &Skips::hidden_shadows},
+    {"unchanged-maps", &Skips::unchanged_maps},
+    {"unchanged-pixels", &Skips::unchanged_pixels},
     {"even-texels", &Skips::even_texels},
 };
 

@@ -226,7 +226,7 @@ TEST_F(Encoded, WithoutTheStepThereIsAcne) {
     ShadowMapKeeper keeper;
     keeper.update(gpu, state, map, {});
     const FrameTarget target = make_frame_target(Show::visibility, kWidth, kHeight, 1);
-    const SurfacePass surfaces;
+    SurfacePass surfaces;
     LightingPass lighting("hard");
     const auto technique = technique_named("hard").make({}, map, false);
     const std::vector<float> truth =

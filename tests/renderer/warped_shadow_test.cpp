@@ -249,6 +249,8 @@ TEST_F(WarpedShadow, AMapThatIsWarpedAndThenIsNotIsRight) {
     ShadowSettings settings = made::settings_of({0.3, FilterMode::exact, 0});
     settings.fixed_size = 256;
     settings.warp = Warp::lispsm;
+    // Points on drawn surfaces are rounded otherwise than stored ones, and a first frame stores.
+    settings.skips.needless_storing = false;
     ShadowRenderer renderer(technique_named("pcf"), settings, gpu, across, kAspect);
     const FrameTarget target = make_frame_target(Show::visibility, kWidth, kHeight, 1);
     gl::PassTimer timer;
