@@ -1,6 +1,8 @@
 // Where a frame is drawn to, and how it is read back.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "renderer/gl/objects.h"
@@ -33,6 +35,8 @@ struct FrameTarget {
     gl::Texture planes;
     gl::Texture materials;
     gl::Framebuffer surface_framebuffer;
+    /// Different each time that surfaces are stored, by whoever: tells whether those that are there are still one's own.
+    std::shared_ptr<uint64_t> stored_surfaces = std::make_shared<uint64_t>(0);
 };
 
 /// samples ≥ 1 a pixel, for Show::colour alone: visibility is measured at pixel centres. Throws FailureError.

@@ -92,9 +92,12 @@ void ShadowRenderer::ask(const Asked& asked, std::vector<Turn>& turns, const Gpu
 
 void ShadowRenderer::choose_whether_to_store(const std::vector<Turn>& turns, bool asks, const GpuScene& scene,
                                              const SceneState& state, const FrameTarget& target) {
-    if (const auto fragments = surface_pass_.take_fragments()) {
+    const std::optional<uint64_t> fragments = surface_pass_.take_fragments();
+    const std::optional<uint64_t> pixels = lighting_pass_.take_pixels();
+    // Surfaces that are stored still are lit without being counted again.
+    if (fragments && pixels) {
         choice_.counts = {.fragments = static_cast<double>(*fragments),
-                          .pixels = static_cast<double>(lighting_pass_.take_pixels().value_or(0)),
+                          .pixels = static_cast<double>(*pixels),
                           .triangles = static_cast<double>(stored_triangles_)};
     }
     std::vector<double> costs;
@@ -156,8 +159,13 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool agai
     gl::ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     if (time.stored) {
         timer.start();
-        surface_pass_.draw(scene, state, surfaces, target);
-        stored_triangles_ = triangle_count(surfaces);
+        // Nothing that is seen has moved, and nobody else has stored surfaces here since.
+        const Stored same{scene.serial, target.serial, *target.stored_surfaces, state.camera, state.movers};
+        if (!settings_.skips.unchanged_pixels || stored_ != same) {
+            surface_pass_.draw(scene, state, surfaces, target);
+            stored_triangles_ = triangle_count(surfaces);
+            stored_ = {scene.serial, target.serial, *target.stored_surfaces, state.camera, state.movers};
+        }
         time.surfaces = timer.stop();
         timer.start();
         ask(asked, turns, scene, state, target);

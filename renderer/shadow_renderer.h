@@ -66,6 +66,17 @@ class ShadowRenderer {
     LightingPass lighting_pass_;
     ShadowQuery query_;
     SurfaceChoice choice_;
+    /// What surfaces were stored of last, and the target's count of it.
+    struct Stored {
+        uint64_t scene = 0;
+        uint64_t target = 0;
+        uint64_t count = 0;
+        Camera camera;
+        std::vector<glm::dmat4> movers;
+
+        bool operator==(const Stored&) const = default;
+    };
+    Stored stored_;
     /// That the last stored surfaces were drawn from.
     size_t stored_triangles_ = 0;
     std::vector<LightShadow> shadows_;

@@ -31,7 +31,7 @@ struct Skips {
     bool hidden_shadows = true;
     /// Depth passes where nothing changed, and casters that stand still where only others move.
     bool unchanged_maps = true;
-    /// Filters where the last frame had the same pixels.
+    /// Surfaces and filters where the last frame had the same pixels.
     bool unchanged_pixels = true;
     /// Filters and searches over texels that are all lit, or all dark.
     bool even_texels = true;

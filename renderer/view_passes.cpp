@@ -200,6 +200,7 @@ SurfacePass::SurfacePass() : programs_{make_surface_program(false), make_surface
 
 void SurfacePass::draw(const GpuScene& scene, const SceneState& state, const DrawList& surfaces,
                        const FrameTarget& target) {
+    ++*target.stored_surfaces;
     const glm::vec4 nothing(0);
     // Where there is no plane, the material is never shown.
     gl::ClearNamedFramebufferfv(target.surface_framebuffer.id(), GL_COLOR, 0, &nothing.x);
