@@ -20,7 +20,7 @@ TEST(Configurations, CrossTechniquesSizesAndTaps) {
     const std::vector<Configuration> list = all_configurations();
     // 6 sizes of hard, exact, levels, vsm, esm, of hard and exact under a warp, and of four filters with 3 numbers of taps; of two, 9
     // ways to leave out less or more, and of two fixed ones one.
-    EXPECT_EQ(list.size(), 1u + 7 * 6 + 4 * 6 * 3 + 2 * 9 + 2);
+    EXPECT_EQ(list.size(), 1u + 7 * 6 + 4 * 6 * 3 + 2 * 10 + 2);
     std::set<std::string> labels;
     for (const Configuration& one : list) {
         EXPECT_TRUE(labels.insert(label(one)).second) << label(one);
