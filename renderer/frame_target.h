@@ -35,7 +35,8 @@ struct FrameTarget {
     gl::Texture planes;
     gl::Texture materials;
     gl::Framebuffer surface_framebuffer;
-    /// Different each time that surfaces are stored, by whoever: tells whether those that are there are still one's own.
+    /// Different each time that surfaces are stored or others drawn over their depths, by whoever: tells whether those that are
+    /// there are still one's own.
     std::shared_ptr<uint64_t> stored_surfaces = std::make_shared<uint64_t>(0);
 };
 

@@ -288,6 +288,8 @@ void LightingPass::draw_lit(const GpuScene& scene, const SceneState& state, cons
                                                             : target.framebuffer;
     clear_lit(framebuffer.id(), target, part);
     if (is_first(part)) gl::ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &kFarthestDepth);
+    // Stored surfaces lose their depths.
+    ++*target.stored_surfaces;
     gl::BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
     set_blending(part);
     gl::BindTextureUnit(0, map.memory.depth.id());

@@ -1,4 +1,4 @@
-// How many samples pass the depth test, counted by GL and read later without a wait: the same commands give the same counts.
+// How many samples pass the depth test, counted by GL and read when they are wanted: the same commands give the same counts.
 #pragma once
 
 #include <cstdint>

@@ -275,6 +275,7 @@ TEST_F(Renderer, SurfacesThatAnotherStoredAreNotTakenForOnesOwn) {
     const GpuScene with_sheet = upload(sheet_scene());
     const GpuScene bare = upload(made::scene_of({made::ground(0, 9)}));
     const FrameTarget target = make_frame_target(Show::visibility, kWidth, kHeight, 1);
+    const GpuScene patch = upload(made::scene_of({made::ground(0, 0.2)}));
     const SceneState state = sheet_state(2, 1.5);
     SceneState still = state;
     still.movers.clear();
@@ -288,6 +289,13 @@ TEST_F(Renderer, SurfacesThatAnotherStoredAreNotTakenForOnesOwn) {
         for (int frame = 0; frame < 4; ++frame) other.draw(bare, still, target, *timer_);
         const std::vector<float> lit = read_visibility(target);
         EXPECT_EQ(*std::min_element(lit.begin(), lit.end()), 1);
+        one.draw(with_sheet, state, target, *timer_);
+        EXPECT_EQ(read_visibility(target), alone);
+        // Nor are depths that another drew as it lit: they tell where surfaces are.
+        ShadowSettings always_drawn = auto_settings();
+        always_drawn.skips.hidden_surfaces = false;
+        ShadowRenderer drawing(technique_named(technique), always_drawn, patch, still, kAspect);
+        drawing.draw(patch, still, target, *timer_);
         one.draw(with_sheet, state, target, *timer_);
         EXPECT_EQ(read_visibility(target), alone);
         // And one's own no more where something has moved, there and back. What pcss needed meanwhile stays for a while.
