@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <numbers>
 #include <vector>
 
@@ -180,6 +182,17 @@ double box_over_texels(const ShadowMapShape& shape, double radius, const glm::dv
         }
     }
     return 1 - dark / (4 * radius * radius);
+}
+
+/// Pixels of two pictures of three channels of which some channel differs by more than a level of 255.
+inline int pixels_apart(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+    int count = 0;
+    for (size_t i = 0; i < a.size(); i += 3) {
+        int most = 0;
+        for (size_t channel = i; channel < i + 3; ++channel) most = std::max(most, std::abs(a[channel] - b[channel]));
+        count += most > 1;
+    }
+    return count;
 }
 
 }  // namespace stairstep::made

@@ -9,6 +9,7 @@
 #include "renderer/scenes/scenes.h"
 #include "renderer/shadow_renderer.h"
 #include "renderer/techniques/techniques.h"
+#include "tests/renderer/made_scenes.h"
 
 namespace stairstep {
 namespace {
@@ -19,9 +20,7 @@ constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
 /// Frames of the same state: the first of a change, the one that is kept, and one that shows what was kept.
 constexpr int kFramesOfAState = 3;
 /// Stored surfaces lie where a ray meets a plane, drawn ones where a rasteriser interpolates, and both are rounded: a filter that
-/// begins or ends right at a caster's edge may fall on its other side. Levels of 255, and how many of the 14,400 pixels may differ by
-/// more.
-constexpr int kLevels = 1;
+/// begins or ends right at a caster's edge may fall on its other side. How many of the 14,400 pixels may differ by more than a level.
 constexpr int kMostOthers = 5;
 
 struct Method {
@@ -78,17 +77,6 @@ class Film {
     gl::PassTimer timer_;
 };
 
-/// Pixels of which some channel differs by more than kLevels.
-int others(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
-    int count = 0;
-    for (size_t i = 0; i < a.size(); i += 3) {
-        int most = 0;
-        for (size_t channel = i; channel < i + 3; ++channel) most = std::max(most, std::abs(a[channel] - b[channel]));
-        count += most > kLevels;
-    }
-    return count;
-}
-
 class SkipsOf : public testing::TestWithParam<const char*> {
   protected:
     std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
@@ -106,7 +94,7 @@ TEST_P(SkipsOf, AllOfThemAreUnseen) {
         int changes = 0;
         for (const SceneState& state : states_of(animated_)) {
             const std::vector<uint8_t> picture = with.draw(state);
-            const int differing = others(picture, without.draw(state));
+            const int differing = made::pixels_apart(picture, without.draw(state));
             EXPECT_LE(differing, kMostOthers) << "frame " << frame;
             EXPECT_EQ(with.size(), without.size()) << "frame " << frame;
             changes += picture != last;
@@ -128,7 +116,7 @@ TEST_P(SkipsOf, EachAloneIsUnseen) {
     for (const SceneState& state : states_of(animated_)) {
         const std::vector<uint8_t> picture = with.draw(state);
         for (size_t i = 0; i < withouts.size(); ++i) {
-            const int differing = others(picture, withouts[i]->draw(state));
+            const int differing = made::pixels_apart(picture, withouts[i]->draw(state));
             EXPECT_LE(differing, kMostOthers) << "frame " << frame << " " << kSkips[i].name;
         }
         ++frame;

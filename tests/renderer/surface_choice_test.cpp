@@ -11,6 +11,7 @@
 #include "renderer/scenes/scenes.h"
 #include "renderer/shadow_renderer.h"
 #include "renderer/techniques/techniques.h"
+#include "tests/renderer/made_scenes.h"
 
 namespace stairstep {
 namespace {
@@ -129,8 +130,7 @@ RC_GTEST_PROP(ChooseSurfaces, ChangesOnlyWhereItPaysATenth, ()) {
 constexpr int kWidth = 480;
 constexpr int kHeight = 270;
 constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
-/// As in skips_test.cpp: levels, and how many pixels on outlines of casters may differ by more.
-constexpr int kLevels = 1;
+/// As in skips_test.cpp: how many pixels on outlines of casters may differ by more than a level.
 constexpr int kMostOthers = 45;
 
 ShadowSettings settings_of(const AnimatedScene& animated, const Skips& skips) {
@@ -162,16 +162,6 @@ struct Film {
     ShadowRenderer renderer;
     gl::PassTimer timer;
 };
-
-int others(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
-    int count = 0;
-    for (size_t i = 0; i < a.size(); i += 3) {
-        int most = 0;
-        for (size_t channel = i; channel < i + 3; ++channel) most = std::max(most, std::abs(a[channel] - b[channel]));
-        count += most > kLevels;
-    }
-    return count;
-}
 
 struct Case {
     const char* scene;
@@ -215,7 +205,7 @@ TEST_P(ChoiceIn, IsUnseen) {
         const SceneState state = frame(std::min(i, 6));
         film.draw(state);
         EXPECT_FALSE(always_drawn.draw(state).stored);
-        EXPECT_LE(others(film.picture(), always_drawn.picture()), kMostOthers) << "frame " << i;
+        EXPECT_LE(made::pixels_apart(film.picture(), always_drawn.picture()), kMostOthers) << "frame " << i;
         EXPECT_EQ(film.renderer.map().shape.width, always_drawn.renderer.map().shape.width) << "frame " << i;
     }
 }
