@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <deque>
 #include <memory>
 
 #include "renderer/bench/frontier.h"
@@ -140,8 +141,15 @@ std::vector<Measurement> measure(const std::vector<Configuration>& list, const M
     std::vector<Measurement> done;
     for (const auto& members : groups_of(todo, settings.most_map_bytes, settings.largest_size)) {
         std::vector<TimedRenderer> group;
+        // Frames that repeat find their surfaces still there, where no other has drawn since.
+        std::deque<FrameTarget> own_targets;
         for (const Configuration& one : members) {
-            group.push_back({one, settled_renderer(one, settings, subject, target), subject, target});
+            const FrameTarget* seen_in = &target;
+            if (skips_without(one.no_skip).unchanged_pixels) {
+                seen_in =
+                    &own_targets.emplace_back(make_frame_target(Show::colour, settings.width, settings.height, 1));
+            }
+            group.push_back({one, settled_renderer(one, settings, subject, *seen_in), subject, *seen_in});
         }
         time_in_turn(group, settings.frames, [] {});
         for (TimedRenderer& timed : group) {

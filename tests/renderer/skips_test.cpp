@@ -14,14 +14,20 @@
 namespace stairstep {
 namespace {
 
+constexpr const char* kTruck = "/usr/share/assimp/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf";
 constexpr int kWidth = 160;
 constexpr int kHeight = 90;
 constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
 /// Frames of the same state: the first of a change, the one that is kept, and one that shows what was kept.
 constexpr int kFramesOfAState = 3;
 /// Stored surfaces lie where a ray meets a plane, drawn ones where a rasteriser interpolates, and both are rounded: a filter that
-/// begins or ends right at a caster's edge may fall on its other side. How many of the 14,400 pixels may differ by more than a level.
-constexpr int kMostOthers = 5;
+/// begins or ends right at a caster's edge may fall on its other side. Where a solid's outline passes through a pixel's centre, to the
+/// 1/256 px that corners are rounded to, its back face may come out before its front. How many of the 14,400 pixels may differ by more
+/// than a level.
+int most_others(const std::string& scene) {
+    // A million triangles: outlines are everywhere.
+    return scene == "city" ? 20 : 5;
+}
 
 struct Method {
     const char* technique;
@@ -80,7 +86,8 @@ class Film {
 class SkipsOf : public testing::TestWithParam<const char*> {
   protected:
     std::unique_ptr<gl::Context> context_ = gl::make_osmesa_context();
-    const AnimatedScene animated_ = scene_named(GetParam());
+    const AnimatedScene animated_ =
+        std::string(GetParam()) == "truck" ? load_animated_scene(kTruck) : scene_named(GetParam());
     const GpuScene gpu_ = upload(animated_.scene);
 };
 
@@ -95,7 +102,7 @@ TEST_P(SkipsOf, AllOfThemAreUnseen) {
         for (const SceneState& state : states_of(animated_)) {
             const std::vector<uint8_t> picture = with.draw(state);
             const int differing = made::pixels_apart(picture, without.draw(state));
-            EXPECT_LE(differing, kMostOthers) << "frame " << frame;
+            EXPECT_LE(differing, most_others(animated_.name)) << "frame " << frame;
             EXPECT_EQ(with.size(), without.size()) << "frame " << frame;
             changes += picture != last;
             last = picture;
@@ -117,13 +124,14 @@ TEST_P(SkipsOf, EachAloneIsUnseen) {
         const std::vector<uint8_t> picture = with.draw(state);
         for (size_t i = 0; i < withouts.size(); ++i) {
             const int differing = made::pixels_apart(picture, withouts[i]->draw(state));
-            EXPECT_LE(differing, kMostOthers) << "frame " << frame << " " << kSkips[i].name;
+            EXPECT_LE(differing, most_others(animated_.name)) << "frame " << frame << " " << kSkips[i].name;
         }
         ++frame;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SkipsOf, testing::Values("crane", "colonnade", "clutter", "cornell"),
+INSTANTIATE_TEST_SUITE_P(Scenes, SkipsOf,
+                         testing::Values("crane", "colonnade", "clutter", "cornell", "fence", "rooms", "city", "truck"),
                          [](const auto& param) { return std::string(param.param); });
 
 }  // namespace
