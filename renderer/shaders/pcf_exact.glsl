@@ -21,7 +21,7 @@ float visibility(Receiver receiver) {
     int most_gathers = gathers_per_side;
     if (warped) most_gathers = min(most_gathers, int(ceil(max(end.x, end.y) / 2)));
     int alike = with_ranges != 0 ? all_alike(receiver, first, vec2(2 * most_gathers), vec2(kGuard)) : 0;
-    // A loop that isn't entered costs nothing, where a branch around one may be flattened.
+    // A loop that isn't entered costs a step at most, where a branch around one may be flattened.
     int gathers = alike == 0 ? most_gathers : 0;
 
     // The first four texels share a corner at first + 1; textureGather returns them from the upper left clockwise.

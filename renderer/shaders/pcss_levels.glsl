@@ -74,7 +74,7 @@ vec2 blocked_and_depth(Receiver receiver, int level, vec2 radius) {
     begin = max(begin, vec2(0));
     ivec2 gathers = ivec2(ceil(end / 2 - 1e-6));
 
-    // All lit: nothing to add up. A loop that isn't entered costs nothing, where a branch around one may be flattened.
+    // All lit: nothing to add up. A loop that isn't entered costs a step at most, where a branch around one may be flattened.
     bool in_window = with_ranges != 0 && max(gathers.x, gathers.y) <= 4;
     if (in_window && all_alike(receiver, first, 2 * vec2(gathers), place.xy) > 0) gathers = ivec2(0);
 

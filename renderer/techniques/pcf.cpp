@@ -34,17 +34,13 @@ glm::dvec2 radius_texels(const ShadowMap& map) {
     return map.filter_radius / map.shape.smallest_texel();
 }
 
-/// How many gathers along a row the shader's loop takes in a step.
-constexpr std::array<std::string_view, 4> kRuns{"const int kRun = 1;\n", "const int kRun = 2;\n",
-                                                "const int kRun = 3;\n", "const int kRun = 4;\n"};
+/// How many gathers along a row the shader's loop takes in a step: more than one, as a step costs as much as a gather or two; few, as a
+/// pixel that filters nothing may pay for one step all the same (where a processor draws, a loop's body runs once with no lane in it).
+constexpr std::array<std::string_view, 2> kRuns{"const int kRun = 1;\n", "const int kRun = 2;\n"};
 
-/// As few steps as there can be, and of those the ones that gather the least beyond what is asked for: of 9 three times 3.
 constexpr int gathers_a_run(int gathers) {
-    const int most = static_cast<int>(kRuns.size());
-    const int steps = (gathers + most - 1) / most;
-    return (gathers + steps - 1) / steps;
+    return std::min(gathers, static_cast<int>(kRuns.size()));
 }
-static_assert(gathers_a_run(1) == 1 && gathers_a_run(4) == 4 && gathers_a_run(5) == 3 && gathers_a_run(9) == 3);
 
 double width_texels(const ShadowMap& map) {
     const glm::dvec2 radius = radius_texels(map);
