@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace stairstep {
 namespace {
@@ -160,11 +161,12 @@ FrameTime ShadowRenderer::draw_once(const ShadowMapShape* first_shape, bool agai
     if (time.stored) {
         timer.start();
         // Nothing that is seen has moved, and nobody else has stored surfaces here since.
-        const Stored same{scene.serial, target.serial, *target.stored_surfaces, state.camera, state.movers};
-        if (!settings_.skips.unchanged_pixels || stored_ != same) {
+        Stored now{scene.serial, target.serial, *target.stored_surfaces, state.camera, state.movers};
+        if (!settings_.skips.unchanged_pixels || stored_ != now) {
             surface_pass_.draw(scene, state, surfaces, target);
             stored_triangles_ = triangle_count(surfaces);
-            stored_ = {scene.serial, target.serial, *target.stored_surfaces, state.camera, state.movers};
+            now.count = *target.stored_surfaces;
+            stored_ = std::move(now);
         }
         time.surfaces = timer.stop();
         timer.start();

@@ -1,5 +1,5 @@
 // Percentage-closer filtering (Reeves et al. 1987) with the box, exactly. Before it go ranges.glsl,
-// box_filter.glsl, texel_quads.glsl or texel_gather.glsl, and kRun: how many gathers a step takes along x.
+// box_filter.glsl, and texel_quads.glsl or texel_gather.glsl.
 
 // Half-width of the box, texels; of a warped map, where they are smallest.
 uniform vec2 filter_radius;
@@ -9,6 +9,9 @@ const float kNarrowest = 1e-3;
 uniform int gathers_per_side;
 // Whether ranges are there; they are where the box touches no more than 8 texels.
 uniform int with_ranges;
+// Gathers along x that the loop takes in a step: more than one, as a step costs as much as a gather or two; few, as a pixel that
+// filters nothing may pay for one step all the same (where a processor draws, a loop's body runs once with no lane in it).
+const int kRun = 2;
 
 float visibility(Receiver receiver) {
     vec2 radius = warped ? max(filter_radius * receiver.scale, kNarrowest) : filter_radius;

@@ -1,7 +1,6 @@
 // Percentage-closer filtering (Reeves et al. 1987): the share of a box or a disk around the receiver, in
 // the plane across the light, whose texels leave it lit.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "embedded/shaders.h"
@@ -34,14 +33,6 @@ glm::dvec2 radius_texels(const ShadowMap& map) {
     return map.filter_radius / map.shape.smallest_texel();
 }
 
-/// How many gathers along a row the shader's loop takes in a step: more than one, as a step costs as much as a gather or two; few, as a
-/// pixel that filters nothing may pay for one step all the same (where a processor draws, a loop's body runs once with no lane in it).
-constexpr std::array<std::string_view, 2> kRuns{"const int kRun = 1;\n", "const int kRun = 2;\n"};
-
-constexpr int gathers_a_run(int gathers) {
-    return std::min(gathers, static_cast<int>(kRuns.size()));
-}
-
 double width_texels(const ShadowMap& map) {
     const glm::dvec2 radius = radius_texels(map);
     return 2 * std::max(radius.x, radius.y);
@@ -59,8 +50,7 @@ class PcfExact final : public ShadowTechnique {
 
     std::vector<std::string_view> shader(const ShadowMap& map) const override {
         return {embedded::ranges_glsl, embedded::box_filter_glsl,
-                has_quads(map) ? embedded::texel_quads_glsl : embedded::texel_gather_glsl,
-                kRuns[static_cast<size_t>(gathers_a_run(gathers_per_side(map)) - 1)], embedded::pcf_exact_glsl};
+                has_quads(map) ? embedded::texel_quads_glsl : embedded::texel_gather_glsl, embedded::pcf_exact_glsl};
     }
 
     void prepare(const ShadowMap& map) override {
